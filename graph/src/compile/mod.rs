@@ -9,7 +9,7 @@
 
 use crate::base::Diagnostic;
 use crate::device::{MemoryProvider, Profile};
-use crate::frame::{Frame, tracked as parts};
+use crate::frame::Frame;
 use crate::plan::Plan;
 
 mod access_chain;

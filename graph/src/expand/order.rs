@@ -1,6 +1,7 @@
 //! The order of passes: what reads or keeps contents that nothing has written, in words of the file.
 
 use super::accesses;
+use super::once::Reported;
 use super::resources::Resources;
 use super::state::State;
 use super::waits::{self, Need};
@@ -23,6 +24,8 @@ struct Check<'a> {
     parts: &'a Parts<'a>,
     writers: Writers,
     errors: &'a mut Vec<Diagnostic>,
+    /// Mistakes that were found so far, also those that are told once for several passes.
+    found: usize,
 }
 
 /// Who reads an image or buffer.
@@ -49,16 +52,17 @@ impl Display for Reader<'_> {
     }
 }
 
-/// Follows contents through the passes in their order.
+/// Follows contents through the passes in their order. Each mistake in a repeated declaration is told once.
 pub(super) fn check(
     resources: &Resources<'_>,
     states: &[State],
     outputs: &[Output],
     parts: &Parts<'_>,
-    errors: &mut Vec<Diagnostic>,
+    (reported, errors): (&mut Reported, &mut Vec<Diagnostic>),
 ) {
     let mut contents = accesses::contents(resources, parts);
-    let mut check = Check { resources, states, parts, writers: Writers::find(resources, states), errors };
+    let (writers, found) = (Writers::find(resources, states), errors.len());
+    let mut check = Check { resources, states, parts, writers, errors, found };
     for ((position, state), number) in states.iter().enumerate().zip(1..) {
         let described = &resources.pipeline.passes[position];
         let name = &described.name.text;
@@ -81,22 +85,32 @@ pub(super) fn check(
                 }
             }
         }
+        reported.once(check.errors, before);
         super::instances::used_here(resources.pipeline, described.instance, &mut check.errors[before..]);
     }
     for (state, described) in states.iter().zip(&resources.pipeline.passes) {
+        let before = check.errors.len();
         for found in state.runs().iter().flat_map(|pass| contents.earlier(pass)).collect::<Vec<_>>() {
             check.needs(states.len(), &found, Reader::Pass(&described.name.text));
         }
+        reported.once(check.errors, before);
     }
     for output in outputs {
+        let before = check.errors.len();
         let reader = if output.span == Span::NONE { Reader::Dump } else { Reader::Frame };
         if let Some(found) = contents.output(output.resource, output.span) {
             check.needs(states.len(), &found, reader);
         }
+        reported.once(check.errors, before);
     }
 }
 
 impl Check<'_> {
+    fn report(&mut self, mistake: Diagnostic) {
+        self.found += 1;
+        keep(self.errors, mistake);
+    }
+
     fn unwritten(&mut self, position: usize, pass: &Pass, found: &Unwritten, reader: Reader<'_>) {
         match found.demand {
             Demand::Color | Demand::Depth => self.continues(position, pass, found),
@@ -146,7 +160,7 @@ impl Check<'_> {
             let wrong = Diagnostic::new(span, message).remark("needed here").label(declared.span, "declared here");
             self.removed(wrong, name)
         };
-        keep(self.errors, diagnostic);
+        self.report(diagnostic);
     }
 
     /// Where a pass is named, and each use that it came by: the same places for all that one entry repeats.
@@ -170,7 +184,7 @@ impl Check<'_> {
             return wrong.label(writer.span, "first written here, by the same pass").help(help);
         }
         let first = Need { pass: position, resource: of, span, writer: writer.position };
-        let few = self.errors.len() < MANY_MISTAKES;
+        let few = self.found < MANY_MISTAKES;
         if few && let Some(circle) = waits::circle(self.resources, self.states, &self.writers, first) {
             return waits::report(self.resources, &circle);
         }
@@ -254,7 +268,7 @@ impl Check<'_> {
             diagnostic =
                 diagnostic.label(writer.span, format!("pass `{off}` would come first, but is off ({because})"));
         }
-        keep(self.errors, diagnostic);
+        self.report(diagnostic);
     }
 
     /// "`color`", or "mip level 2 of `color`" where only a part is missing.
@@ -284,7 +298,7 @@ impl Check<'_> {
     /// The first pass that runs and writes the part, or after many mistakes any part.
     fn writer_of(&self, of: Resource, missing: Subresources) -> Option<Writer> {
         let writers = &self.writers.on[self.writers.index(of)];
-        let few = self.errors.len() < MANY_MISTAKES;
+        let few = self.found < MANY_MISTAKES;
         let writes = |writer: &&Writer| {
             let pass = self.states[writer.position].runs();
             let uses = pass.iter().flat_map(|pass| accesses::uses(self.resources, pass));

@@ -2,6 +2,7 @@
 
 use super::follow::{follow, follow_all};
 use super::inputs::Inputs;
+use super::once::Reported;
 use super::{fills, images, states};
 use crate::base::{Diagnostic, Span};
 use crate::frame::{Buffer, BufferIndex, ImageIndex, Lifetime, Resource};
@@ -19,10 +20,15 @@ pub(super) struct Resources<'a> {
 }
 
 impl<'a> Resources<'a> {
-    /// Resolves all of them, for a frame with these inputs.
-    pub(super) fn resolve(pipeline: &'a Pipeline, inputs: &Inputs<'_>, errors: &mut Vec<Diagnostic>) -> Resources<'a> {
+    /// Resolves all of them, for a frame with these inputs. Each mistake in a repeated declaration is told once.
+    pub(super) fn resolve(
+        pipeline: &'a Pipeline,
+        inputs: &Inputs<'_>,
+        reported: &mut Reported,
+        errors: &mut Vec<Diagnostic>,
+    ) -> Resources<'a> {
         let output = inputs.window.unwrap_or(Format::R8G8B8A8_SRGB);
-        let mut images = images::resolve(pipeline, inputs.output_extent, output, errors);
+        let mut images = images::resolve(pipeline, inputs.output_extent, output, (reported, errors));
         let lifetimes = lifetimes(pipeline);
         let (of_images, of_buffers) = lifetimes.split_at(images.len());
         for ((image, described), kept) in images.iter_mut().zip(&pipeline.images).zip(of_images) {
@@ -34,6 +40,7 @@ impl<'a> Resources<'a> {
                     Some(lifetime) => resolved.image.lifetime = lifetime,
                     None => *image = None,
                 }
+                reported.once(errors, before);
                 super::instances::used_here(pipeline, described.instance, &mut errors[before..]);
             }
         }
@@ -49,6 +56,7 @@ impl<'a> Resources<'a> {
                 follow(buffers, &mut sizes, at, next, |buffer, followed| bytes(&images, buffer, followed, errors));
             let subject = Subject { name: &buffer.name.text, format: None, samples: 1 };
             let lifetime = lifetime(buffer.lifetime.span, of_buffers[at], subject, errors);
+            reported.once(errors, before);
             super::instances::used_here(pipeline, buffer.instance, &mut errors[before..]);
             let (name, span) = (buffer.name.text.clone(), buffer.name.span);
             Some(Buffer { name, span, bytes: bytes?, lifetime: lifetime? })

@@ -3,9 +3,9 @@
 use crate::compile::cull::Live;
 use crate::compile::model::Negotiated;
 use crate::compile::options::Options;
-use crate::compile::parts::Grids;
 use crate::device::Profile;
 use crate::frame::Frame;
+use crate::frame::tracked::Grids;
 
 /// The frame, and what the stages before found out.
 #[derive(Clone, Copy)]

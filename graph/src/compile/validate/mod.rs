@@ -28,7 +28,8 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
         if errors.len() > before {
             continue;
         }
-        if let Some(what) = resolve_problem(image).or_else(|| eyes::image_problem(image, frame.stereo)) {
+        let problem = resolve_problem(image).or_else(|| eyes::image_problem(image, frame.stereo));
+        if let Some(what) = problem.or_else(|| lifetimes::shape_problem(image)) {
             errors.push(Diagnostic::new(image.span, format!("`{}` {what}", image.name)));
         } else if let Some(wrong) = lifetimes::check(&image.lifetime, image.span, || of_image(image)) {
             errors.push(wrong);
@@ -60,11 +61,11 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
     if errors.is_empty() { Ok(()) } else { Err(errors) }
 }
 
-/// Whether a frame is valid that differs from a valid one in nothing but values.
+/// Whether a frame is valid that differs from a valid one in nothing but values: those of fills and clears can be wrong.
 pub(super) fn still_holds(frame: &Frame) -> bool {
     let mut errors = Vec::new();
     for pass in &frame.passes {
-        if pass.work.is_transfer() {
+        if pass.work.filled().is_some() {
             Check { frame, pass, errors: &mut errors }.transfers();
         } else if pass.work.is_draw() && wrong_clear(frame, pass).is_some() {
             return false;

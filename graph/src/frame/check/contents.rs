@@ -7,9 +7,9 @@ use crate::frame::tracked::Parts;
 use crate::frame::{Access, Pass, Resource};
 use crate::vulkan::Subresources;
 
-/// A part has no contents.
+/// In place of a writer's number: nothing has written the part.
 pub(crate) const NOTHING: u32 = u32::MAX;
-/// A part has contents from before the first pass.
+/// In place of a writer's number: the part has contents from before the first pass.
 pub(crate) const BEFORE: u32 = 0;
 
 /// What is written while passes are followed in their order.
