@@ -20,6 +20,10 @@ pub struct Note {
 }
 
 impl Note {
+    pub(crate) fn new(kind: NoteKind, subject: Arc<str>, text: impl Into<String>, at: Option<Place>) -> Note {
+        Note { kind, subject, text: text.into(), at }
+    }
+
     /// Which stage decided.
     #[must_use]
     pub const fn stage(&self) -> Stage {

@@ -114,12 +114,14 @@ impl<'p> Contents<'p> {
     /// What a pass reads of earlier frames and no pass of this frame writes; after all passes.
     pub(crate) fn earlier(&mut self, pass: &Pass) -> Vec<Unwritten> {
         let mut found = Vec::new();
-        for access in pass.accesses().filter(|access| access.frames_ago() > 0) {
-            access.for_each_effect(pass, self.parts.image(access.resource()), |effect| {
-                let unwritten = self.unwritten(access.resource(), effect.range, access.span());
-                found.extend(unwritten.map(|it| Unwritten { demand: Demand::Earlier, ..it }));
-            });
-        }
+        pass.visit_accesses(&mut |access: Access<'_>| {
+            if access.frames_ago() > 0 {
+                access.for_each_effect(pass, self.parts.image(access.resource()), |effect| {
+                    let unwritten = self.unwritten(access.resource(), effect.range, access.span());
+                    found.extend(unwritten.map(|it| Unwritten { demand: Demand::Earlier, ..it }));
+                });
+            }
+        });
         found
     }
 
