@@ -346,11 +346,12 @@ impl Renderer {
         Ok(executor.present(source, window, shown(plan))?)
     }
 
-    /// Does the same, and draws a frame of the renderer `over` over it first, such as text: see [`Overlay`]. What it shows is its first
-    /// output. Its frames are counted by themselves.
+    /// Draws a frame into the next image of a window, then a frame of the renderer `over` over it, such as text, and has both shown: see
+    /// [`Renderer::present`] and [`Overlay`]. The overlay is the first output of `over`, whose frames are counted by themselves.
     ///
     /// # Errors
-    /// Those of [`Renderer::present`], of both renderers.
+    /// Those of [`Renderer::present`], of both renderers. If the overlay can't be drawn, the frame of this renderer is submitted all the
+    /// same: it counts, and isn't shown.
     pub fn present_with_overlay(
         &mut self,
         source: &mut dyn DrawSource,

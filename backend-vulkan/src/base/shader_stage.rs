@@ -22,7 +22,7 @@ pub(crate) struct StageFacts {
     pub(crate) name: &'static str,
     /// How the names of its files end.
     pub(crate) ending: &'static str,
-    /// What a message calls it that is about a shader of this stage.
+    /// How a message about a shader names this stage of it; a compute shader has no other stage.
     pub(crate) subject: &'static str,
     /// The stage of a pipeline that runs it.
     pub(crate) pipeline: Stages,
@@ -32,7 +32,7 @@ pub(crate) struct StageFacts {
     pub(crate) model: ExecutionModel,
     /// Whether it is a part of a draw: eyes and rotations are its concern.
     pub(crate) draws: bool,
-    /// Whether it places vertices: it reads attributes, and no output of it is an attachment.
+    /// Whether it runs once for each vertex, reads attributes, and puts out positions.
     pub(crate) places_vertices: bool,
     /// Whether its outputs are attachments.
     pub(crate) writes_attachments: bool,

@@ -6,7 +6,7 @@ use crate::commands::{
     Readback, Texels, first_plane, mip_extent, plane_bytes, rotate_texels, write_buffer, write_image,
 };
 use crate::memory::{Image, RawBuffer};
-use crate::prepare::{buffer_descriptor, descriptor, initial_queue, name_and_role};
+use crate::prepare::{buffer_descriptor, descriptor, initial_queue};
 use ash::vk;
 use framewright_graph::plan::{BufferId, ImageId, Queue, Resource, Role};
 use framewright_graph::vulkan::{Aspects, Layout, State, Usage};
@@ -252,7 +252,7 @@ impl Executor {
 
     /// Which frame left it last, in what state, and on which queue.
     fn left(&self, resource: Resource) -> Result<(u64, State, Queue), Error> {
-        let (name, role) = name_and_role(&self.plan, resource);
+        let (name, role) = (self.plan.resource_name(resource), self.plan.role(resource));
         let bad = |what: &str| Error::BadResource { what: format!("`{name}` can't be read: {what}") };
         let frame = self.frames.next().checked_sub(1).ok_or_else(|| bad("no frame was drawn yet"))?;
         match role {
@@ -266,7 +266,7 @@ impl Executor {
     /// In what state the next frame finds it, and on which queue.
     fn found(&self, resource: Resource, name: &str) -> Result<(State, Queue), Error> {
         let bad = |what: &str| Error::BadResource { what: format!("`{name}` can't be written: {what}") };
-        let (_, role) = name_and_role(&self.plan, resource);
+        let role = self.plan.role(resource);
         let is_image = matches!(resource, Resource::Image(_));
         let state = match role {
             Role::Transient(_) => return Err(bad("it is transient")),

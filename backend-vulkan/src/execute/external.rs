@@ -4,7 +4,7 @@ use super::executor::Executor;
 use super::submission::{ExternalStates, ResourceState};
 use crate::base::Error;
 use crate::memory::create_info;
-use crate::prepare::{descriptor, name_and_role};
+use crate::prepare::descriptor;
 use ash::vk;
 use framewright_graph::plan::{Resource, Role};
 
@@ -13,7 +13,7 @@ impl Executor {
     #[must_use]
     pub fn external_states(&self, name: &str) -> Option<ExternalStates> {
         let resource = self.external(name)?;
-        let Role::External { before, after } = name_and_role(&self.plan, resource).1 else { return None };
+        let Role::External { before, after } = self.plan.role(resource) else { return None };
         Some(ExternalStates { before: ResourceState::of(*before), after: ResourceState::of(*after) })
     }
 
@@ -49,6 +49,6 @@ impl Executor {
     /// The external image or buffer of this name.
     fn external(&self, name: &str) -> Option<Resource> {
         let mut all = self.imports.iter().map(|import| import.resource);
-        all.find(|it| name_and_role(&self.plan, *it).0 == name)
+        all.find(|it| self.plan.resource_name(*it) == name)
     }
 }

@@ -3,7 +3,7 @@
 use super::executor::Executor;
 use crate::base::Error;
 use crate::commands::{barriers, memory_change, state_change};
-use crate::prepare::{cycle, initial_queue, name_and_role};
+use crate::prepare::{cycle, initial_queue};
 use ash::vk;
 use framewright_graph::plan::{BufferId, FirstContents, ImageId, Plan, Queue, Resource, Role};
 use framewright_graph::vulkan::{State, Subresources};
@@ -63,14 +63,14 @@ impl Executor {
             }
         }
         self.prepared.forget();
-        Ok(migrated.iter().map(|it| name_and_role(&self.plan, it.to).0.to_owned()).collect())
+        Ok(migrated.iter().map(|it| self.plan.resource_name(it.to).to_owned()).collect())
     }
 
     /// Names of the images and buffers of the program's that it has, or that executors before it had. Those that a window shows aren't
     /// among them: presenting imports them.
     fn imported(&self) -> Vec<String> {
         let imported = self.imports.iter().filter(|it| !it.is_own(&self.prepared.physical));
-        let names = imported.map(|it| name_and_role(&self.plan, it.resource).0);
+        let names = imported.map(|it| self.plan.resource_name(it.resource));
         let names = names.filter(|name| self.owners.iter().all(|(shown, _)| shown != name));
         names.map(str::to_owned).chain(self.missing.iter().cloned()).collect()
     }
@@ -79,7 +79,7 @@ impl Executor {
     pub(super) fn not_imported(&self) -> Option<&str> {
         let uses_own = |name: &str| {
             let mut own = self.imports.iter().filter(|it| it.is_own(&self.prepared.physical));
-            own.any(|it| name_and_role(&self.plan, it.resource).0 == name)
+            own.any(|it| self.plan.resource_name(it.resource) == name)
         };
         self.missing.iter().map(String::as_str).find(|name| uses_own(name))
     }
@@ -99,13 +99,13 @@ impl Executor {
 
     /// How an image or buffer goes on; `None` if it doesn't.
     fn goes_on(&self, before: &Executor, to: Resource) -> Option<Migration> {
-        let (name, role) = name_and_role(&self.plan, to);
+        let (name, role) = (self.plan.resource_name(to), self.plan.role(to));
         // Contents from a file were read anew, and may have changed.
         let Role::Persistent { before: found, initial: FirstContents::Value(_), .. } = role else { return None };
-        let from = persistent(&before.plan).find(|it| name_and_role(&before.plan, *it).0 == name)?;
-        let Role::Persistent { before: left, .. } = name_and_role(&before.plan, from).1 else { return None };
+        let from = persistent(&before.plan).find(|it| before.plan.resource_name(*it) == name)?;
+        let Role::Persistent { before: left, .. } = before.plan.role(from) else { return None };
         let names = |plan: &Plan, first| -> Vec<String> {
-            members(plan, first).into_iter().map(|it| name_and_role(plan, it).0.to_owned()).collect()
+            members(plan, first).into_iter().map(|it| plan.resource_name(it).to_owned()).collect()
         };
         let (next, old, new) = (before.frames.next(), &before.prepared.physical, &self.prepared.physical);
         let fits = match (from, to) {

@@ -2,7 +2,7 @@
 
 use crate::base::Error;
 use crate::commands::{Readback, first_plane};
-use crate::prepare::{Frame, ResourceUses, name_and_role};
+use crate::prepare::{Frame, ResourceUses};
 use ash::vk;
 use framewright_graph::plan::{Output, Plan, Resource, Role, StepId};
 use framewright_graph::vulkan::State;
@@ -24,7 +24,7 @@ impl OutputReadback {
     pub(crate) fn all(plan: &Plan, uses: &ResourceUses) -> Result<Vec<OutputReadback>, Error> {
         let readback = |output: &Output| {
             let resource = output.resource;
-            let (_, role) = name_and_role(plan, resource);
+            let role = plan.role(resource);
             let bad = || Error::BadPlan { what: "an output is transient, or no step touches it".to_owned() };
             let (Role::Persistent { after: state, .. } | Role::External { after: state, .. }) = role else {
                 return Err(bad());

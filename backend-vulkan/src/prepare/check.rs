@@ -126,10 +126,7 @@ fn checked_buffer(gpu: &Gpu, plan: &Plan, buffer: &Buffer, poison: bool) -> Resu
 /// Whether the device has the memory that the Plan takes altogether. The allocator says so of each piece alone, but software
 /// drivers promise all of the machine's memory for each piece.
 fn all_memory(gpu: &Gpu, plan: &Plan) -> Result<(), Error> {
-    let placed = |role: &Role| match role {
-        Role::Transient(place) => Some(place.bytes),
-        Role::Persistent { .. } | Role::External { .. } => None,
-    };
+    let placed = |role: &Role| role.placement().map(|place| place.bytes);
     let of_image = |image: &Image| {
         let bytes = placed(&image.role).unwrap_or_else(|| gpu.memory_needs(&descriptor(image)).bytes);
         (image.name.to_string(), bytes)
@@ -152,12 +149,10 @@ fn all_memory(gpu: &Gpu, plan: &Plan) -> Result<(), Error> {
 
 /// Whether the device has the layouts that images come to.
 fn layouts(gpu: &Gpu, plan: &Plan) -> Result<(), Error> {
-    let states = plan.images.iter().flat_map(|image| match &image.role {
-        Role::Persistent { before, after, .. } | Role::External { before, after } => {
-            vec![(image.id, before.layout), (image.id, after.layout)]
-        }
-        Role::Transient(_) => Vec::new(),
-    });
+    let states = plan
+        .images
+        .iter()
+        .flat_map(|image| image.role.states().into_iter().flatten().map(|state| (image.id, state.layout)));
     let barriers = plan.steps.iter().flat_map(|step| step.image_barriers.iter().chain(&step.releases));
     let changes = barriers.flat_map(|it| [(it.image, it.old_layout), (it.image, it.new_layout)]);
     for (image, layout) in states.chain(changes) {

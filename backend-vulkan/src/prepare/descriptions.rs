@@ -2,7 +2,7 @@
 
 use framewright_graph::device::{BufferDescriptor, ImageDescriptor};
 use framewright_graph::frame::EyeForm;
-use framewright_graph::plan::{self, BufferId, Plan, Resource, Role};
+use framewright_graph::plan::{self, Role};
 use framewright_graph::vulkan::{BufferUsage, Subresources, Usage};
 
 /// The description of a Plan's image on this device. Images that outlive the frame can always be read back.
@@ -48,15 +48,4 @@ pub(crate) fn cycle<'p>(first: u32, role: impl Fn(u32) -> &'p Role) -> impl Iter
         Role::Transient(_) | Role::External { .. } => None,
     };
     std::iter::successors(Some(first), next)
-}
-
-/// Name and role of an image or buffer.
-pub(crate) fn name_and_role(plan: &Plan, resource: Resource) -> (&str, &Role) {
-    match resource {
-        Resource::Image(image) => (&plan.image(image).name, &plan.image(image).role),
-        Resource::Buffer(BufferId(buffer)) => {
-            let buffer = &plan.buffers[buffer as usize];
-            (&buffer.name, &buffer.role)
-        }
-    }
 }

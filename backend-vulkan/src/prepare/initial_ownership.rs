@@ -5,7 +5,7 @@
 
 use super::descriptions::part;
 use super::uses::ResourceUses;
-use framewright_graph::plan::{ImageBarrier, ImageId, Plan, Queue, Resource, Role};
+use framewright_graph::plan::{ImageBarrier, ImageId, Plan, Queue, Resource};
 use framewright_graph::vulkan::{Layout, Sharing, Subresources};
 use std::collections::HashSet;
 
@@ -42,10 +42,8 @@ pub(crate) fn initial_owners<'p>(plan: &'p Plan, relies: impl Fn(ImageId) -> boo
             }
         }
         if first {
-            let layout = match &plan.image(image).role {
-                Role::Persistent { before, .. } | Role::External { before, .. } => before.layout,
-                Role::Transient(_) => Layout::Undefined,
-            };
+            let states = plan.image(image).role.states();
+            let layout = states.map_or(Layout::Undefined, |[before, _]| before.layout);
             owners.push(InitialOwner { image, range, layout, owner, acquired });
         }
     };
@@ -87,7 +85,7 @@ pub(crate) fn initial_queue(plan: &Plan, uses: &ResourceUses, resource: Resource
 mod tests {
     use super::*;
     use framewright_graph::plan::{
-        Cause, DeviceUsed, Fill, FirstContents, Hazard, Image, Side, Step, StepId, Totals, Work,
+        Cause, DeviceUsed, Fill, FirstContents, Hazard, Image, Role, Side, Step, StepId, Totals, Work,
     };
     use framewright_graph::vulkan::{Accesses, FillValue, Format, Rotation, Shape, Stages, State, Usage};
 

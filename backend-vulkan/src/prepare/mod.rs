@@ -29,7 +29,7 @@ pub(crate) use command_list::{
     Bindings, Command, CommandList, DispatchCommand, DrawCommand, DrawCounts, DrawnVertices, OwnDraw, ScopeCommand,
     WorkgroupCount,
 };
-pub(crate) use descriptions::{buffer_descriptor, cycle, descriptor, name_and_role, part};
+pub(crate) use descriptions::{buffer_descriptor, cycle, descriptor, part};
 pub(crate) use draw_target::{DrawTarget, scissor, viewport};
 pub(crate) use frame::Frame;
 pub(crate) use initial_ownership::{InitialOwner, initial_owners, initial_queue};

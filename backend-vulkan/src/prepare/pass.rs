@@ -243,7 +243,7 @@ pub(super) fn prepare_draw(
     check_needs(gpu, &shader.interface, brought.supplied.iter(), scope.color().len()).map_err(mismatch)?;
     check_supplied(&shader.interface, &brought).map_err(mismatch)?;
     check_outputs(&shader.interface, plan, &written).map_err(mismatch)?;
-    check_covers(&shader.interface, pass, draw).map_err(mismatch)?;
+    check_covers(&shader.interface, plan, scope, pass).map_err(mismatch)?;
     let own_vertices = draw.has_own_vertices() && !wanted.is_empty();
     let (attributes, strides) = if own_vertices {
         own_attributes(&shader.interface, wanted.len()).map_err(mismatch)?
@@ -285,11 +285,13 @@ pub(super) fn prepare_draw(
     Ok(PreparedDraw { pipeline, local, state, vertices, ..nothing(sets) })
 }
 
-/// The Plan must know what the shader leaves as it was: it may have been made before the shader was changed.
-fn check_covers(shader: &ShaderInterface, pass: &plan::Pass, draw: Draw) -> Result<(), String> {
+/// The Plan must know what the shader leaves as it was, where it relies on that: it may have been made before the shader was changed.
+fn check_covers(shader: &ShaderInterface, plan: &Plan, scope: &RenderScope, pass: &plan::Pass) -> Result<(), String> {
     let leaves_out = shader.discards || shader.masks_samples;
-    let covers = pass.covers || draw.is_full_screen() && pass.untouched.is_none();
-    if pass.discards || !(leaves_out && covers) {
+    // A pass that draws the same depth again would draw what this one leaves out.
+    let mut passes = plan.steps.iter().flat_map(|step| step.work.passes());
+    let mut drawn_again = || passes.any(|it| it.redraws.as_ref() == Some(&pass.name));
+    if pass.discards || !leaves_out || !(pass.is_taken_to_cover(scope) || drawn_again()) {
         return Ok(());
     }
     Err(format!("shader `{}` leaves samples out, which the Plan doesn't know: compile the Plan again", pass.shader))

@@ -13,8 +13,8 @@ use crate::pipeline::or_unused;
 use crate::shaders::ShaderLibrary;
 use ash::vk;
 use framewright_graph::frame::EyeForm;
-use framewright_graph::plan::{Attachment, ImageId, Plan, RenderScope};
-use framewright_graph::vulkan::{Aspects, LoadOp, Subresources};
+use framewright_graph::plan::{Attachment, AttachmentKind, ImageId, Plan, RenderScope};
+use framewright_graph::vulkan::{LoadOp, Subresources};
 use std::sync::Arc;
 
 /// The objects of a rendering scope's passes.
@@ -103,14 +103,14 @@ fn attachment(frame: &Frame<'_>, planned: &Attachment) -> Result<vk::RenderingAt
     }
     let format = frame.plan.image(planned.image).format;
     Ok(match planned.clear {
-        Some(value) if planned.load == LoadOp::Clear => info.clear_value(match planned.range.aspects {
-            Aspects::COLOR => vk::ClearValue { color: convert::clear_color(format, value) },
-            Aspects::STENCIL => {
+        Some(value) if planned.load == LoadOp::Clear => info.clear_value(match planned.kind {
+            AttachmentKind::Color => vk::ClearValue { color: convert::clear_color(format, value) },
+            AttachmentKind::Stencil => {
                 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
                 let stencil = u32::from(value[0] as u8);
                 vk::ClearValue { depth_stencil: vk::ClearDepthStencilValue { depth: 0.0, stencil } }
             }
-            _ => {
+            AttachmentKind::Depth => {
                 #[allow(clippy::cast_possible_truncation, reason = "no format holds more")]
                 let depth = value[0] as f32;
                 vk::ClearValue { depth_stencil: vk::ClearDepthStencilValue { depth, stencil: 0 } }

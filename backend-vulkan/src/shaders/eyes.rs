@@ -70,7 +70,7 @@ impl BothEyes {
     }
 
     fn before(self, stage: ShaderStage, handed_on: impl Fn(&str) -> String) -> String {
-        let StageFacts { places_vertices, draws, .. } = stage.facts();
+        let StageFacts { places_vertices, writes_attachments, .. } = stage.facts();
         let extension = match (self.source, self.form) {
             (EyeSource::ViewIndex, _) => "#extension GL_EXT_multiview : require\n",
             (_, EyeForm::Layers) if places_vertices => "#extension GL_ARB_shader_viewport_layer_array : require\n",
@@ -78,7 +78,7 @@ impl BothEyes {
         };
         let instance = match self.counts_instances() {
             true if places_vertices => format!("int framewright_instance;\n{}", handed_on("out")),
-            true if draws => handed_on("in"),
+            true if writes_attachments => handed_on("in"),
             _ => String::new(),
         };
         format!("{extension}int {EYE};\n{instance}")

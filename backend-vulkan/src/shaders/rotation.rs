@@ -46,13 +46,13 @@ pub(super) fn unturned(module: &IndexedModule<'_>, stage: ShaderStage) -> Vec<Un
     let rotation = known_by(module);
     let functions = module.module.functions.iter();
     let functions = functions.filter(|function| !code(function).any(|it| mentions(it, &rotation)));
-    let StageFacts { draws, places_vertices, .. } = stage.facts();
-    if !draws {
-        return Vec::new();
-    }
+    let StageFacts { places_vertices, writes_attachments, .. } = stage.facts();
     if places_vertices {
         let all = module.module.functions.len();
         return if functions.count() == all { vec![UnturnedPart::Vertices] } else { Vec::new() };
+    }
+    if !writes_attachments {
+        return Vec::new();
     }
     let places = places(module);
     let (mut reads, mut differentiates) = (false, false);

@@ -92,12 +92,10 @@ impl Bound {
 fn alive(plan: &Plan) -> Vec<u64> {
     let mut alive = vec![0_u64; plan.steps.len()];
     let roles = plan.images.iter().map(|image| &image.role).chain(plan.buffers.iter().map(|buffer| &buffer.role));
-    for role in roles {
-        if let Role::Transient(placement) = role {
-            let [first, last] = placement.lifetime.map(|step| step.0 as usize);
-            for at in alive.iter_mut().take(last + 1).skip(first) {
-                *at = at.saturating_add(placement.bytes);
-            }
+    for placement in roles.filter_map(Role::placement) {
+        let [first, last] = placement.lifetime.map(|step| step.0 as usize);
+        for at in alive.iter_mut().take(last + 1).skip(first) {
+            *at = at.saturating_add(placement.bytes);
         }
     }
     alive

@@ -11,19 +11,19 @@ const FEW: usize = 3;
 /// The notes that `check` shows. It leaves out why scopes are separate (`inspect` shows that), and what shipped fragments
 /// leave out by themselves.
 pub(crate) fn worth_showing(notes: &[Note]) -> impl Iterator<Item = &Note> {
-    notes.iter().filter(|note| note.stage != Stage::Scope && !note.is_of_shipped_fragment())
+    notes.iter().filter(|note| note.stage() != Stage::Scope && !note.is_of_shipped_fragment())
 }
 
 /// One line for each note, in their order; of many of one kind only for the first few, and how many more there are.
 pub(crate) fn lines<'n>(notes: impl Iterator<Item = &'n Note>) -> Vec<String> {
     let notes: Vec<&Note> = notes.collect();
-    let mut counts: HashMap<(Stage, NoteKind), (usize, usize)> = HashMap::new();
+    let mut counts: HashMap<NoteKind, (usize, usize)> = HashMap::new();
     for note in &notes {
-        counts.entry((note.stage, note.kind)).or_default().0 += 1;
+        counts.entry(note.kind).or_default().0 += 1;
     }
     let mut lines = Vec::new();
     for note in &notes {
-        let Some((count, seen)) = counts.get_mut(&(note.stage, note.kind)) else { continue };
+        let Some((count, seen)) = counts.get_mut(&note.kind) else { continue };
         *seen += 1;
         if *count <= MANY || *seen <= FEW {
             lines.push(shown(note));
@@ -46,7 +46,7 @@ mod tests {
     use super::*;
 
     fn note(kind: NoteKind, subject: &str, text: &str) -> Note {
-        Note { kind, stage: kind.stage(), subject: subject.into(), text: text.to_owned(), at: None }
+        Note { kind, subject: subject.into(), text: text.to_owned(), at: None }
     }
 
     #[test]
@@ -64,5 +64,8 @@ mod tests {
             "note: 18 more like `p3` (`--format json` has all)",
         ];
         assert_eq!(lines(notes.iter()), expected);
+        let saved = serde_json::to_string(&notes).expect("JSON");
+        let saved: Vec<Note> = serde_json::from_str(&saved).expect("notes");
+        assert_eq!(lines(saved.iter()), expected, "a saved Plan knows what belongs together");
     }
 }

@@ -75,6 +75,21 @@ fn a_pass_an_image_a_resolve_a_barrier_an_allocation_and_a_queue_are_explained()
 }
 
 #[test]
+fn a_copy_and_a_fill_are_explained_by_their_own_lines() {
+    let place = Place::new();
+    let image = |name: &str| format!("(name: \"{name}\", format: R8G8B8A8_UNORM, size: Fixed(8, 8))");
+    let passes = "(name: \"set\", fill: (to: \"a\", value: 0)), (name: \"move\", copy: (from: \"a\", to: \"b\"))";
+    let (a, b) = (image("a"), image("b"));
+    let outputs = "(image: \"b\", encoding: Unorm)";
+    place.file(
+        "moves.ron",
+        format!("Pipeline(version: 1, images: [{a}, {b}], passes: [{passes}], outputs: [{outputs}])"),
+    );
+    told(&place, &["moves.ron", "set"], &["`set` fills in step 0", "step 0: `set` fills `a` 8×8 with "]);
+    told(&place, &["moves.ron", "move"], &["`move` copies in step 1", "step 1: `move`: copy `a` 8×8 → `b` 8×8"]);
+}
+
+#[test]
 fn programs_read_the_same_and_unknown_things_are_told_with_a_near_name() {
     let place = first();
     let json = place.run(&["explain", "first.ron", "sky", "--format", "json"]).exits(0).out;

@@ -51,7 +51,7 @@ fn every_view_of_every_shipped_pipeline_shows_what_its_plan_says() {
         let mut shown = |selector: &str| browser.count(&format!("document.querySelectorAll('{selector}').length"));
         let about = format!("{arguments:?}");
         assert_eq!(shown("#view-graph g[data-key]:not(.beside)"), nodes(&plan), "{about}: graph");
-        let culled = list(&plan, "notes").iter().filter(|note| note["stage"] == "cull").count();
+        let culled = list(&plan, "notes").iter().filter(|note| note["kind"] == "unneeded").count();
         assert_eq!(
             shown(
                 "#view-grid g:is(.draw,.dispatch,.custom,.folded_resolve,.resolve,.copy,.blit,.fill,.culled)[data-key]"

@@ -302,3 +302,40 @@ fn a_plan_is_refused_whose_shader_leaves_texels_out_since() {
     }
     assert!(!bench.place.path("x.png").exists());
 }
+
+/// A blend keeps what was there, whatever the shader leaves; depth that is drawn again must leave the same.
+#[test]
+fn a_plan_is_refused_for_what_a_shader_leaves_out_only_where_it_relies_on_that() {
+    let Some(bench) = Bench::new() else { return };
+    let size = "size: Fixed(8, 8)";
+    let blended = "(name: \"before\", fill: (to: \"o\", value: 0)),
+        (name: \"draw\", draw: FullScreen(\"draw\"), color: [(image: \"o\", blend: Alpha)])";
+    let again = "(name: \"draw\", draw: Objects(Opaque), shader: \"draw\", depth: (image: \"d\", clear: 0.0)),
+        (name: \"show\", draw: FullScreen(\"show\"), sample: {\"source\": \"d\"}, color: [\"o\"])";
+    let depth = format!(", (name: \"d\", format: Depth, {size}, samples: 4, resolve: DepthOnly)");
+    bench.place.file(
+        "show.frag",
+        "#version 460\nlayout(set = 0, binding = 0) uniform sampler2D source;\nlayout(location = 0) out vec4 c;
+         void main() { c = vec4(texelFetch(source, ivec2(gl_FragCoord.xy), 0).r); }\n",
+    );
+    let outputs = "outputs: [(image: \"o\", encoding: Unorm)]";
+    for (images, passes, out, is_refused) in
+        [("", blended, "layout(location = 0) out vec4 c;", false), (&*depth, again, "", true)]
+    {
+        let images = format!("(name: \"o\", format: R8G8B8A8_UNORM, {size}){images}");
+        bench.place.file("p.ron", format!("Pipeline(version: 1, images: [{images}], passes: [{passes}], {outputs})"));
+        let shader = |body: &str| {
+            let set = if out.is_empty() { "" } else { "c = vec4(0.5);" };
+            bench.place.file("draw.frag", format!("#version 460\n{out}\nvoid main() {{ {body} {set} }}\n"));
+        };
+        shader("");
+        bench.run(&[&["p.ron"], &SCENE, &["--save-plan", "plan.json"]]).exits(0);
+        shader("if (gl_FragCoord.x < 4.0) discard;");
+        let drawn = bench.run(&[&["--plan", "plan.json"], &SCENE, &["-o", "x.png"]]);
+        if is_refused {
+            drawn.exits(1).mentions("leaves samples out, which the Plan doesn't know: compile the Plan again");
+        } else {
+            drawn.exits(0);
+        }
+    }
+}

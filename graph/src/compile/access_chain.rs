@@ -11,11 +11,11 @@ pub(super) fn stands_beside_reads(writes: bool, layout: Layout, last: Layout) ->
     !writes && layout == last
 }
 
-/// The accesses to a subresource so far, as far as the next one depends on them. `T` tells where accesses stand; its default
-/// stands for no access.
+/// The earlier accesses to a subresource that the next one depends on. A `T` is the place of one access or of several; the default of
+/// `T` means no access.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct AccessChain<T> {
-    /// The last write, or the reads in an earlier layout behind it.
+    /// The last write. If the layout changed between reads since then: the reads before that change.
     before: T,
     /// The reads since, in one layout.
     readers: T,
@@ -28,13 +28,13 @@ impl<T: Copy + Default + PartialEq> AccessChain<T> {
         AccessChain { before: T::default(), readers: T::default(), layout: Layout::Undefined }
     }
 
-    /// The last write, or the reads in an earlier layout behind it.
+    /// The last write. If the layout changed between reads since then: the reads before that change.
     #[inline]
     pub(super) fn before(&self) -> T {
         self.before
     }
 
-    /// What an access stands behind: the last write or reads in an earlier layout, and the reads since.
+    /// The accesses that the next one depends on: [`AccessChain::before`], and the reads since, unless it can stand beside them.
     #[inline]
     pub(super) fn behind(&self, writes: bool, layout: Layout) -> [T; 2] {
         [self.before, if stands_beside_reads(writes, layout, self.layout) { T::default() } else { self.readers }]

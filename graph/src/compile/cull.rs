@@ -1,10 +1,10 @@
 //! `cull`: keeps the passes whose results reach an output, the next frame or a side effect.
 
 use super::link::{self, FrameLinks};
-use super::parts::{Grids, Parts};
 use super::validate;
 use crate::base::Diagnostic;
 use crate::frame::Frame;
+use crate::frame::tracked_parts::{Grids, Parts};
 
 /// Which passes stay.
 #[derive(Debug)]

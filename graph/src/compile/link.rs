@@ -1,9 +1,9 @@
 //! `link`: follows the contents of each part through the passes. Refuses passes that read what nothing wrote, and finds out what
 //! is kept and whether all passes are needed.
 
-use super::parts::Parts;
 use crate::base::{Code, Diagnostic};
 use crate::frame::check::contents::{Contents, MissingContents, NOTHING};
+use crate::frame::tracked_parts::Parts;
 use crate::frame::{BufferIndex, Frame, ImageIndex, Lifetime, Resource};
 use std::ops::Range;
 

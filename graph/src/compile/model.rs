@@ -1,7 +1,7 @@
 //! Physical images and buffers, and operations that use them: the result of `adapt`, and the input of the stages after it.
 
-use super::parts::Grid;
 use crate::device::{BufferDescriptor, ImageDescriptor};
+use crate::frame::tracked_parts::Grid;
 use crate::frame::{EyeForm, ImageIndex, Resource, ViewIndex, allocated_extent};
 use crate::plan::{AttachmentKind, InsertionCause, Note};
 use crate::vulkan::{

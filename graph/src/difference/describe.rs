@@ -102,7 +102,7 @@ fn of_entry(plan: &Plan, entry: plan::Entry<'_>) -> Vec<Description> {
         Item::Wait(wait) => of_step.wait(wait),
         Item::MemoryBarrier(barrier) => return of_step.memory_barrier(barrier),
         Item::ImageBarrier(barrier) => of_step.image_barrier(barrier),
-        Item::Attachment(_, attachment) => of_step.attachment(attachment),
+        Item::Attachment(location, attachment) => of_step.attachment(location, attachment),
         Item::Pass(pass) => of_step.pass(pass),
         Item::Resolve(attachment, resolve) => of_step.resolve(attachment, resolve),
         Item::Image(it) => image(plan, it),

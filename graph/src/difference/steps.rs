@@ -55,14 +55,14 @@ impl<'p> EntryStep<'p> {
         Description::new(Kind::Resolve, format!("{from} → {to}"), fields)
     }
 
-    pub(super) fn attachment(self, attachment: &Attachment) -> Description {
+    pub(super) fn attachment(self, location: usize, attachment: &Attachment) -> Description {
         let image = self.part(attachment.image, attachment.range);
         let mut fields = vec![("load", name_of(&attachment.load)), ("store", name_of(&attachment.store))];
         if let Some(clear) = attachment.clear {
             fields.push(("clear value", in_plan(&clear)));
         }
         fields.push(("layout", name_of(&attachment.layout)));
-        fields.push(("attached as", name_of(&attachment.kind)));
+        fields.push(("attached as", attachment.kind.words(location)));
         let of_itself = format!("{image}, {}", name_of(&attachment.range.aspects));
         let name = format!("{of_itself}, of the scope of {}", self.name_of_first());
         let because = Some(ShownText(&attachment.because.to_string()).to_string());

@@ -113,8 +113,8 @@ fn expand_so(
     let (pipeline, shared) =
         eyes::split(pipeline, (stereo, stereo.form(inputs.device)), inputs.output_extent, &mut errors);
     let mut reported = ReportedMistakes::default();
-    let mut resources = Resources::resolve(&pipeline, inputs, &mut errors);
     reported.each_once(&mut errors, 0);
+    let mut resources = Resources::resolve(&pipeline, inputs, &mut reported, &mut errors);
     kept.iter_mut().for_each(|kept| kept.begin(&resources, inputs));
 
     let mut checked = shader::CheckedShaders::new(shaders, &sources);
@@ -161,12 +161,10 @@ fn expand_so(
     depth_only::note(&resources, &mut states, &mut checked);
     casters::agree(&pipeline, &states, &mut errors);
     let outputs = outputs(&resources, inputs, &mut errors);
-    let before = errors.len();
     let cut = CutImages::new(&resources, states.iter().flat_map(State::runs));
     let parts = cut.parts();
     let stored = storage_writes::keep(&resources, &mut states, &parts, &mut checked);
-    order::check(&resources, &states, &outputs, &parts, &mut errors);
-    reported.each_once(&mut errors, before);
+    order::check(&resources, &states, &outputs, &parts, (&mut reported, &mut errors));
     if errors.is_empty() {
         history::shorten(&mut resources, &states);
     }

@@ -27,7 +27,7 @@ impl ReportedMistakes {
         }));
     }
 
-    /// Removes repeated mistakes as [`ReportedMistakes::once`] does, where each mistake belongs to another image, buffer or pass.
+    /// Removes repeated mistakes as [`ReportedMistakes::once`] does, where no image, buffer or pass has more than one of them.
     pub(super) fn each_once(&mut self, errors: &mut Vec<Diagnostic>, start: usize) {
         let new: Vec<Diagnostic> = errors.drain(start..).collect();
         for error in new {

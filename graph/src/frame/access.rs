@@ -250,7 +250,7 @@ impl BufferRole {
         matches!(self, BufferRole::Storage { write: true, .. })
     }
 
-    /// Whether a storage block is read, to be changed, and whether it is written; `None`: it is none.
+    /// The `read` of a storage block, which can be changed by this, and its `write`; `None` for other roles.
     pub(crate) const fn storage_mut(&mut self) -> Option<(&mut bool, bool)> {
         match self {
             BufferRole::Storage { read, write } => Some((read, *write)),

@@ -3,6 +3,7 @@
 
 use super::{Blend, ColorTarget, DepthTarget, Draw, Frame, Image, ImageIndex, Pass, Resource, StencilState, Work};
 use crate::vulkan::{Aspects, CompareOp, StencilOp, Subresources};
+use std::sync::Arc;
 
 impl Pass {
     /// Whether `target`, a part of `image`, needs its earlier contents: it is neither cleared nor covered.
@@ -19,6 +20,16 @@ impl Pass {
         !clears && !self.covers_plane(target, plane, image)
     }
 
+    /// Why the draw into `target`, a part of `image`, may leave texels as they were, if it would replace every one otherwise.
+    pub(crate) fn untouched_color(&self, target: &ColorTarget, image: &Image) -> Option<&Arc<str>> {
+        self.untouched.as_ref().filter(|_| target.blend == Blend::Replace && self.fills(image, target.range))
+    }
+
+    /// The same of one plane of `target`.
+    pub(crate) fn untouched_plane(&self, target: &DepthTarget, plane: Aspects, image: &Image) -> Option<&Arc<str>> {
+        self.untouched.as_ref().filter(|_| target.replaces(plane) && self.fills(image, target.range))
+    }
+
     /// Whether the draw into `target`, a part of `image`, replaces every texel.
     fn covers_color(&self, target: &ColorTarget, image: &Image) -> bool {
         target.blend == Blend::Replace && self.reaches_every_texel(image, target.range)
@@ -26,18 +37,19 @@ impl Pass {
 
     /// Whether the draw into one plane of `target`, a part of `image`, replaces every texel.
     fn covers_plane(&self, target: &DepthTarget, plane: Aspects, image: &Image) -> bool {
-        let sets = |stencil: StencilState| matches!(stencil.pass, StencilOp::Replace | StencilOp::Zero);
-        let written = if plane == Aspects::STENCIL { target.stencil.is_some_and(sets) } else { target.write };
-        // A test reads the planes, whatever is promised.
-        written && target.passes() && self.reaches_every_texel(image, target.range)
+        target.replaces(plane) && self.reaches_every_texel(image, target.range)
     }
 
-    /// Whether it draws a fragment that passes all tests at every sample, or is promised to. A triangle reaches only one of several
-    /// layers.
+    /// Whether it draws a fragment that passes all tests at every sample, or is promised to.
     fn reaches_every_texel(&self, image: &Image, range: Subresources) -> bool {
-        let full_screen = matches!(self.work, Work::Draw { draw: Draw::FullScreen, discards: false, .. });
-        let fills = full_screen && !self.alpha_to_coverage && self.untouched.is_none();
-        image.part(range).layers == 1 && (self.covers || fills && self.depth.as_ref().is_none_or(DepthTarget::passes))
+        let leaves_out = self.work.discards() || self.alpha_to_coverage || self.untouched.is_some();
+        self.covers && image.part(range).layers == 1 || !leaves_out && self.fills(image, range)
+    }
+
+    /// Whether it draws over a part of `image`, and no test fails. A triangle reaches only one of several layers.
+    fn fills(&self, image: &Image, range: Subresources) -> bool {
+        let passes = self.depth.as_ref().is_none_or(DepthTarget::passes);
+        passes && self.work.draws(Draw::is_full_screen) && image.part(range).layers == 1
     }
 }
 
@@ -68,6 +80,13 @@ impl Frame {
 }
 
 impl DepthTarget {
+    /// Whether fragments set all bits of a plane. A test reads the planes, whatever a pass promises.
+    fn replaces(&self, plane: Aspects) -> bool {
+        let sets = |stencil: StencilState| matches!(stencil.pass, StencilOp::Replace | StencilOp::Zero);
+        let written = if plane == Aspects::STENCIL { self.stencil.is_some_and(sets) } else { self.write };
+        written && self.passes()
+    }
+
     /// Whether fragments pass all its tests.
     fn passes(&self) -> bool {
         self.test == CompareOp::Always && self.stencil.is_none_or(|stencil| stencil.test == CompareOp::Always)

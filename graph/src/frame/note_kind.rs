@@ -1,11 +1,11 @@
 //! The kinds of notes on a frame and its Plan.
 
+use serde::{Deserialize, Serialize};
+
 /// The kind of a note: what it tells of its subject. A stable code of a note belongs to its kind.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum NoteKind {
-    /// The note is of a Plan that was read: its form holds no kinds.
-    #[default]
-    Unknown,
     /// A condition switches a pass off.
     Off,
     /// A condition leaves out an image that a pass samples.

@@ -42,7 +42,7 @@ impl Grids {
             }
         }
         for pass in passes {
-            pass.accesses().for_each(|access| {
+            pass.visit_accesses(&mut |access: Access<'_>| {
                 if let (Some(image), range) = (access.image_index(), access.range())
                     && !range.is_whole()
                 {

@@ -219,6 +219,6 @@ pub struct TransferUse {
     pub span: Span,
     /// Whether it is written; else it is read.
     pub write: bool,
-    /// Whether a write leaves a part of it as it was: a copy of texels into a buffer that has a few bytes more.
+    /// Whether a write leaves a part of it as it was. A copy into a buffer that has more bytes must say so.
     pub keeps: bool,
 }

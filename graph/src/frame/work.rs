@@ -132,7 +132,12 @@ impl Work {
     pub const fn draw(&self) -> Option<(Draw, &Arc<str>)> {
         match self {
             Work::Draw { draw, shader, .. } => Some((*draw, shader)),
-            _ => None,
+            Work::Dispatch { .. }
+            | Work::Copy
+            | Work::Blit { .. }
+            | Work::Fill { .. }
+            | Work::Custom { .. }
+            | Work::Forward { .. } => None,
         }
     }
 
@@ -174,7 +179,12 @@ impl Work {
     pub const fn groups(&self) -> Option<Groups> {
         match self {
             Work::Dispatch { groups, .. } => Some(*groups),
-            _ => None,
+            Work::Draw { .. }
+            | Work::Copy
+            | Work::Blit { .. }
+            | Work::Fill { .. }
+            | Work::Custom { .. }
+            | Work::Forward { .. } => None,
         }
     }
 
@@ -189,16 +199,12 @@ impl Work {
     pub const fn filled(&self) -> Option<FillValue> {
         match self {
             Work::Fill { value } => Some(*value),
-            _ => None,
-        }
-    }
-
-    /// The filter, if it is a blit.
-    #[must_use]
-    pub const fn filter(&self) -> Option<Filter> {
-        match self {
-            Work::Blit { filter } => Some(*filter),
-            _ => None,
+            Work::Draw { .. }
+            | Work::Dispatch { .. }
+            | Work::Copy
+            | Work::Blit { .. }
+            | Work::Custom { .. }
+            | Work::Forward { .. } => None,
         }
     }
 
@@ -220,7 +226,12 @@ impl Work {
     pub(crate) fn forwarded_mut(&mut self) -> Option<[&mut ImageIndex; 2]> {
         match self {
             Work::Forward { from, to, .. } => Some([from, to]),
-            _ => None,
+            Work::Draw { .. }
+            | Work::Dispatch { .. }
+            | Work::Copy
+            | Work::Blit { .. }
+            | Work::Fill { .. }
+            | Work::Custom { .. } => None,
         }
     }
 
@@ -229,7 +240,12 @@ impl Work {
     pub const fn forward(&self) -> Option<(ImageIndex, ImageIndex, &str)> {
         match self {
             Work::Forward { from, to, because } => Some((*from, *to, because.as_str())),
-            _ => None,
+            Work::Draw { .. }
+            | Work::Dispatch { .. }
+            | Work::Copy
+            | Work::Blit { .. }
+            | Work::Fill { .. }
+            | Work::Custom { .. } => None,
         }
     }
 

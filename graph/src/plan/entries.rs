@@ -18,7 +18,7 @@ pub enum EntryKind {
     View,
     /// A pass, an inserted one too.
     Pass,
-    /// A resolve. In the text of a Plan only one that a rendering scope carries, since another one is a step.
+    /// A resolve. In the text of a Plan, a resolve that is a step of its own is told as a step.
     Resolve,
     /// A copy, blit or fill. In the text of a Plan it is a step.
     Transfer,

@@ -34,6 +34,7 @@ use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 mod cause;
+mod covers;
 mod entries;
 mod ids;
 mod json;
@@ -152,6 +153,18 @@ impl Plan {
     #[must_use]
     pub fn image(&self, id: ImageId) -> &Image {
         &self.images[id.0 as usize]
+    }
+
+    /// The role of an image or buffer.
+    ///
+    /// # Panics
+    /// As [`Plan::image`].
+    #[must_use]
+    pub fn role(&self, resource: Resource) -> &Role {
+        match resource {
+            Resource::Image(image) => &self.image(image).role,
+            Resource::Buffer(BufferId(buffer)) => &self.buffers[buffer as usize].role,
+        }
     }
 
     /// The rotation of a rendering scope's picture: that of its attachments.

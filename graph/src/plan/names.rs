@@ -1,6 +1,6 @@
 //! How people read a Plan's parts: steps, parts of images, Vulkan's words. Text that came from files is escaped.
 
-use super::{BufferId, ImageId, Plan, Resource, StepId};
+use super::{AttachmentKind, BufferId, ImageId, Plan, Resource, StepId};
 use crate::vulkan::{Subresources, name_of};
 use std::fmt;
 use std::fmt::{Display, Formatter, Write};
@@ -29,6 +29,16 @@ impl Display for Subresources {
         f.write_str(&name_of(&self.aspects))?;
         part(f, "mip", self.base_mip, self.mips)?;
         part(f, "layer", self.base_layer, self.layers)
+    }
+}
+
+impl AttachmentKind {
+    /// An attachment of this kind in words: "color 0", "depth". `location`: its number among the attachments of its scope.
+    pub(crate) fn words(self, location: usize) -> String {
+        match self {
+            AttachmentKind::Color => format!("color {location}"),
+            AttachmentKind::Depth | AttachmentKind::Stencil => name_of(&self),
+        }
     }
 }
 

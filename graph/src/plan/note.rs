@@ -5,15 +5,12 @@ use crate::frame::NoteKind;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// A decision that no step shows. Notes are equal if their forms are, which hold no kinds.
-#[derive(Debug, Clone, Serialize, Deserialize)]
+/// A decision that no step shows.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Note {
-    /// Its kind, which the form of a Plan doesn't hold.
-    #[serde(skip)]
+    /// What it tells of its subject.
     pub kind: NoteKind,
-    /// Which stage decided.
-    pub stage: Stage,
     /// The subject of the decision: a pass or an image.
     pub subject: Arc<str>,
     /// The decision in the reader's words.
@@ -22,16 +19,15 @@ pub struct Note {
     pub at: Option<Place>,
 }
 
-impl PartialEq for Note {
-    fn eq(&self, other: &Note) -> bool {
-        let Note { kind: _, stage, subject, text, at } = self;
-        (*stage, subject, text, at) == (other.stage, &other.subject, &other.text, &other.at)
-    }
-}
-
 impl Note {
     pub(crate) fn new(kind: NoteKind, subject: Arc<str>, text: impl Into<String>, at: Option<Place>) -> Note {
-        Note { kind, stage: kind.stage(), subject, text: text.into(), at }
+        Note { kind, subject, text: text.into(), at }
+    }
+
+    /// Which stage decided.
+    #[must_use]
+    pub const fn stage(&self) -> Stage {
+        self.kind.stage()
     }
 
     /// Whether the note tells which passes a shipped fragment switches off by itself: users of the fragment can do nothing
@@ -40,17 +36,17 @@ impl Note {
     pub fn is_of_shipped_fragment(&self) -> bool {
         let shipped =
             self.at.as_ref().is_some_and(|place| matches!(FilePath::of_text(&place.file), FilePath::Shipped(_)));
-        shipped && self.subject.contains('.') && self.stage == Stage::Expand
+        shipped && self.subject.contains('.') && self.stage() == Stage::Expand
     }
 }
 
 impl NoteKind {
-    /// The stage that decides so. Who draws the frame is told of what may show in the picture, as of formats.
+    /// The stage that decides so. [`Stage::Fit`] stands for all that may show in the picture, such as another format: programs tell
+    /// who draws the frame about it.
     #[must_use]
     pub const fn stage(self) -> Stage {
         match self {
-            NoteKind::Unknown
-            | NoteKind::Off
+            NoteKind::Off
             | NoteKind::LeftOut
             | NoteKind::NotForTwoEyes
             | NoteKind::EyesApart

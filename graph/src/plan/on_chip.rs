@@ -4,7 +4,7 @@
 //! Its bytes are counted once, however many passes of the scope draw into it. That is the least that scopes of their own would
 //! move: between two of them, an attachment is stored and loaded.
 
-use super::{Attachment, ImageId, Plan, Role, Step};
+use super::{Attachment, ImageId, Plan, Step};
 use crate::vulkan::{LoadOp, StoreOp};
 
 impl Plan {
@@ -28,12 +28,9 @@ impl Plan {
     }
 
     fn stays_on_chip(&self, attachment: &Attachment) -> bool {
-        let lazily_allocated = match &self.image(attachment.image).role {
-            Role::Transient(placement) => {
-                self.heaps.get(placement.heap as usize).is_some_and(|heap| heap.lazily_allocated)
-            }
-            Role::Persistent { .. } | Role::External { .. } => false,
-        };
-        lazily_allocated && attachment.load != LoadOp::Load && attachment.store != StoreOp::Store
+        let heap = self.image(attachment.image).role.placement().and_then(|it| self.heaps.get(it.heap as usize));
+        heap.is_some_and(|heap| heap.lazily_allocated)
+            && attachment.load != LoadOp::Load
+            && attachment.store != StoreOp::Store
     }
 }

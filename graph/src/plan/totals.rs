@@ -64,11 +64,11 @@ impl Totals {
             Work::Resolve(_) => self.resolves += 1,
             Work::Copy(transfer) | Work::Blit(transfer) => {
                 self.copies += 1;
-                self.transfer_pass(transfer.name.is_some());
+                self.passes += u32::from(transfer.name.is_some());
             }
             Work::Fill(fill) => {
                 self.fills += 1;
-                self.transfer_pass(fill.name.is_some());
+                self.passes += u32::from(fill.name.is_some());
             }
             Work::Export => {}
         }
@@ -80,11 +80,6 @@ impl Totals {
         self.memory_barriers += length(step.memory_barriers.len());
         let calls = [step.memory_barriers.is_empty(), step.image_barriers.is_empty(), step.releases.is_empty()];
         self.barrier_calls += length(calls.iter().filter(|empty| !**empty).count());
-    }
-
-    /// A copy, blit or fill that is a pass of the file; inserted ones are no passes.
-    fn transfer_pass(&mut self, written: bool) {
-        self.passes += u32::from(written);
     }
 
     fn pass(&mut self, pass: &Pass) {

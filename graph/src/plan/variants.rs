@@ -1,6 +1,6 @@
 //! How a Plan has shaders compiled.
 
-use super::{BindingKind, Pass, Plan, RenderScope, Work};
+use super::{BindingKind, Pass, Plan, RenderScope};
 use crate::frame::Stereo;
 use crate::shader::{EyeSource, Variant};
 
@@ -45,14 +45,8 @@ impl Plan {
     /// All passes that have a shader, inserted ones too, each with how it is compiled.
     pub fn variants(&self) -> impl Iterator<Item = (&Pass, Variant)> {
         self.steps.iter().flat_map(move |step| {
-            let (passes, scope) = match &step.work {
-                Work::Render(scope) => (&scope.passes[..], Some(scope)),
-                Work::Dispatch(pass) => (std::slice::from_ref(pass), None),
-                Work::Resolve(_) | Work::Copy(_) | Work::Blit(_) | Work::Fill(_) | Work::Custom(_) | Work::Export => {
-                    (&[][..], None)
-                }
-            };
-            passes.iter().map(move |pass| (pass, self.variant(pass, scope.map(|scope| &**scope))))
+            let shaded = step.work.passes().iter().filter(|_| !step.work.is_custom());
+            shaded.map(move |pass| (pass, self.variant(pass, step.work.scope())))
         })
     }
 }

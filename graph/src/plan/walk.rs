@@ -106,7 +106,7 @@ impl Work {
         }
     }
 
-    /// The name of the pass that it is: none of a rendering scope, and none of a transfer that the compiler inserted.
+    /// The name of its one pass. A rendering scope has none, nor has a transfer that the compiler inserted.
     #[must_use]
     pub const fn name(&self) -> Option<&Arc<str>> {
         match self {

@@ -170,7 +170,11 @@ impl BindingKind {
         match self {
             BindingKind::StorageImage { readable, writable, .. }
             | BindingKind::StorageBlock { readable, writable, .. } => Some((*readable, *writable)),
-            _ => None,
+            BindingKind::SampledImage(_)
+            | BindingKind::ComparedDepth(_)
+            | BindingKind::UniformBlock(_)
+            | BindingKind::InputAttachment { .. }
+            | BindingKind::Other(_) => None,
         }
     }
 
@@ -179,7 +183,11 @@ impl BindingKind {
     pub fn sampled(&self) -> Option<ImageShape> {
         match self {
             BindingKind::SampledImage(shape) | BindingKind::ComparedDepth(shape) => Some(*shape),
-            _ => None,
+            BindingKind::StorageImage { .. }
+            | BindingKind::UniformBlock(_)
+            | BindingKind::StorageBlock { .. }
+            | BindingKind::InputAttachment { .. }
+            | BindingKind::Other(_) => None,
         }
     }
 

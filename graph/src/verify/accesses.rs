@@ -14,9 +14,9 @@ use super::program::Builder;
 use super::scopes::{PairSet, StageSet};
 use super::work::{is_attached, mip_extent};
 use crate::frame::{Blend, Draw};
-use crate::plan::{self, Attachment, BufferId, ImageId, Pass, RenderScope, Side, Transfer, Work};
+use crate::plan::{self, Attachment, AttachmentKind, BufferId, ImageId, Pass, RenderScope, Side, Transfer, Work};
 use crate::vulkan::{
-    Accesses, Aspects, BufferUsage, CompareOp, Layout, LoadOp, Stages, StencilOp, StoreOp, Subresources, Usage,
+    Accesses, BufferUsage, CompareOp, Layout, LoadOp, Stages, StencilOp, StoreOp, Subresources, Usage,
 };
 
 /// How an access is kept apart from others of its step.
@@ -94,7 +94,7 @@ pub(super) fn list(work: &Work, to: &mut Builder) {
 pub(super) fn expected(work: &Work) -> usize {
     let of_pass = |pass: &Pass| pass.accesses.len() + pass.buffers.len();
     match work {
-        Work::Render(scope) => 3 * attachments(scope).count() + scope.passes.iter().map(of_pass).sum::<usize>(),
+        Work::Render(scope) => 3 * scope.attachments.len() + scope.passes.iter().map(of_pass).sum::<usize>(),
         Work::Dispatch(pass) | Work::Custom(pass) => of_pass(pass),
         Work::Resolve(_) | Work::Copy(_) | Work::Blit(_) | Work::Fill(_) => 2,
         Work::Export => 0,
@@ -139,17 +139,13 @@ fn side(side: &Side, stages: Stages, accesses: Accesses, usage: [u32; 2], conten
     }
 }
 
-/// The attachments of a scope: whether they are of colour beside each.
-pub(super) fn attachments(scope: &RenderScope) -> impl Iterator<Item = (&Attachment, bool)> {
-    scope.attachments.iter().map(|attachment| (attachment, attachment.kind.plane() == Aspects::COLOR))
-}
-
 fn render(scope: &RenderScope, to: &mut Builder) {
     to.drawn.clear();
-    let local = attachments(scope)
-        .any(|(attachment, _)| matches!(attachment.layout, Layout::RenderingLocalReadKhr | Layout::General));
-    for (attachment, is_color) in attachments(scope) {
-        let (stages, read, write) = if is_color { COLOR_LOAD } else { DEPTH_LOAD };
+    let is_local =
+        |attachment: &Attachment| matches!(attachment.layout, Layout::RenderingLocalReadKhr | Layout::General);
+    let local = scope.attachments.iter().any(is_local);
+    for attachment in &scope.attachments {
+        let (stages, read, write) = if is_color(attachment) { COLOR_LOAD } else { DEPTH_LOAD };
         let (accesses, contents) = match attachment.load {
             LoadOp::Load => (read, does::READ),
             LoadOp::Clear => (write, does::FILL),
@@ -158,7 +154,7 @@ fn render(scope: &RenderScope, to: &mut Builder) {
         if local && attachment.load != LoadOp::Load {
             to.drawn.push((attachment.image, attachment.range));
         }
-        attached(attachment, is_color, stages, accesses, contents, to);
+        attached(attachment, stages, accesses, contents, to);
     }
     for pass in &scope.passes {
         pass_accesses(pass, Some(scope), to);
@@ -172,16 +168,16 @@ fn render(scope: &RenderScope, to: &mut Builder) {
             }
         }
     }
-    for (attachment, is_color) in attachments(scope) {
+    for attachment in &scope.attachments {
         if let Some(resolve) = &attachment.resolve {
             let output = Stages::COLOR_ATTACHMENT_OUTPUT;
-            attached(attachment, is_color, output, Accesses::COLOR_ATTACHMENT_READ, does::READ, to);
+            attached(attachment, output, Accesses::COLOR_ATTACHMENT_READ, does::READ, to);
             let part = (resolve.image, resolve.range, resolve.layout);
-            part_attached(part, is_color, output, Accesses::COLOR_ATTACHMENT_WRITE, does::FILL, to);
+            part_attached(part, is_color(attachment), output, Accesses::COLOR_ATTACHMENT_WRITE, does::FILL, to);
         }
     }
-    for (attachment, is_color) in attachments(scope) {
-        let (stages, write) = if is_color {
+    for attachment in &scope.attachments {
+        let (stages, write) = if is_color(attachment) {
             (Stages::COLOR_ATTACHMENT_OUTPUT, Accesses::COLOR_ATTACHMENT_WRITE)
         } else {
             (Stages::LATE_FRAGMENT_TESTS, Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE)
@@ -191,8 +187,12 @@ fn render(scope: &RenderScope, to: &mut Builder) {
             StoreOp::DontCare => (stages, write, does::NOT_STORE),
             StoreOp::None => (Stages::empty(), Accesses::empty(), does::STORE_NONE),
         };
-        attached(attachment, is_color, stages, accesses, contents, to);
+        attached(attachment, stages, accesses, contents, to);
     }
+}
+
+fn is_color(attachment: &Attachment) -> bool {
+    attachment.kind == AttachmentKind::Color
 }
 
 const COLOR_LOAD: (Stages, Accesses, Accesses) =
@@ -200,9 +200,9 @@ const COLOR_LOAD: (Stages, Accesses, Accesses) =
 const DEPTH_LOAD: (Stages, Accesses, Accesses) =
     (Stages::EARLY_FRAGMENT_TESTS, Accesses::DEPTH_STENCIL_ATTACHMENT_READ, Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE);
 
-fn attached(attachment: &Attachment, color: bool, stages: Stages, accesses: Accesses, contents: u8, to: &mut Builder) {
+fn attached(attachment: &Attachment, stages: Stages, accesses: Accesses, contents: u8, to: &mut Builder) {
     let part = (attachment.image, attachment.range, attachment.layout);
-    part_attached(part, color, stages, accesses, contents, to);
+    part_attached(part, is_color(attachment), stages, accesses, contents, to);
 }
 
 fn part_attached(

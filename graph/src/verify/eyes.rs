@@ -1,6 +1,5 @@
 //! Whether images that hold both eyes' parts are used for both eyes at once, or by shaders that say which eye's part they read.
 
-use super::accesses::attachments;
 use super::findings::Findings;
 use crate::frame::{EyeForm, Stereo};
 use crate::plan::{Access, ImageId, Plan, RenderScope, Side, StepId, Transfer, Work};
@@ -55,7 +54,7 @@ pub(super) fn check(plan: &Plan, found: &mut Findings<'_>) {
 
 /// All attachments of a scope, and the images that they are resolved into, hold both eyes' parts alike, or none does.
 fn all_or_none(plan: &Plan, id: StepId, scope: &RenderScope, found: &mut Findings<'_>) {
-    let images = attachments(scope).flat_map(|(attachment, _)| {
+    let images = scope.attachments.iter().flat_map(|attachment| {
         let resolved = attachment.resolve.as_ref().map(|resolve| resolve.image);
         std::iter::once(attachment.image).chain(resolved)
     });

@@ -1,6 +1,6 @@
 //! Whether each pass is well formed: its draws or dispatches, and its accesses.
 
-use super::accesses::{ATTACHMENT, attachments};
+use super::accesses::ATTACHMENT;
 use super::barriers::possible;
 use super::layouts::planes;
 use super::structure::is_of_file;
@@ -73,7 +73,7 @@ impl<'p> Check<'_, 'p> {
         if pass.alpha_to_coverage && !(covers && pass.discards) {
             self.wrong_pass(pass, "covers samples by alpha and can't, or doesn't say that fragments may be lost");
         }
-        let local = attachments(scope).any(|(attachment, _)| attachment.layout == Layout::RenderingLocalReadKhr);
+        let local = scope.attachments.iter().any(|attachment| attachment.layout == Layout::RenderingLocalReadKhr);
         if pass.local_barrier && !local {
             self.wrong_pass(pass, "has a local barrier in a scope without local reads");
         }
@@ -95,7 +95,7 @@ impl<'p> Check<'_, 'p> {
         let by = if pass.draw.is_some_and(Draw::is_custom) { CommandSource::Program } else { CommandSource::Plan };
         for access in &pass.accesses {
             self.access(access, by, graphics, ATTACHMENT | SHADER);
-            let attached = attachments(scope).any(|(attachment, _)| {
+            let attached = scope.attachments.iter().any(|attachment| {
                 (attachment.image, attachment.range, attachment.layout) == (access.image, access.range, access.layout)
             });
             let stray = access.accesses.intersects(ATTACHMENT) && !attached;

@@ -1,7 +1,6 @@
 //! Whether turned images are turned all along: nothing in a frame but a draw turns a picture, and shaders and copies take
 //! their sources to be upright.
 
-use super::accesses::attachments;
 use super::findings::Findings;
 use crate::plan::{Access, ImageId, Plan, RenderScope, Side, StepId, Transfer, Work};
 use crate::vulkan::{Accesses, Rotation, Shape};
@@ -36,7 +35,7 @@ pub(super) fn check(plan: &Plan, found: &mut Findings<'_>) {
 
 /// All attachments of a scope, and the images that they are resolved into, are turned alike.
 fn one_rotation(plan: &Plan, id: StepId, scope: &RenderScope, found: &mut Findings<'_>) {
-    let images = attachments(scope).flat_map(|(attachment, _)| {
+    let images = scope.attachments.iter().flat_map(|attachment| {
         let resolved = attachment.resolve.as_ref().map(|resolve| resolve.image);
         std::iter::once(attachment.image).chain(resolved)
     });

@@ -40,8 +40,8 @@ const RESOLVE: usize = 16;
 const BLIT: usize = 17;
 const CLEAR: usize = 18;
 
-/// Pipelines in logical order: graphics with vertices, and with meshes; compute, which is two stages long. That of ray tracing is
-/// left out: its barriers are held to more than they need.
+/// Pipelines in logical order: graphics with vertices, and with meshes; compute, which is two stages long. Ray tracing is left out: a
+/// barrier must name each of its stages, as if they had no order.
 const PIPELINES: [&[usize]; 3] = [
     &[DRAW_INDIRECT, VERTEX_INPUT, VERTEX_SHADER, SHADING_RATE, EARLY_TESTS, FRAGMENT_SHADER, LATE_TESTS, COLOR_OUTPUT],
     &[DRAW_INDIRECT, TASK_SHADER, MESH_SHADER, SHADING_RATE, EARLY_TESTS, FRAGMENT_SHADER, LATE_TESTS, COLOR_OUTPUT],

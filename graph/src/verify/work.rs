@@ -3,7 +3,7 @@
 //! The render area of a scope is all of its attachments: otherwise a clear would be partial and nothing could be said
 //! about contents. On the way the steps get their dense form: a Plan is too large to be read several times.
 
-use super::accesses::{ATTACHMENT, attachments};
+use super::accesses::ATTACHMENT;
 use super::findings::{Finding, Findings};
 use super::layouts::planes;
 use super::lookup::Scopes;
@@ -101,12 +101,12 @@ impl<'p> Check<'_, 'p> {
     }
 
     fn scope(&mut self, scope: &'p RenderScope) {
-        if attachments(scope).next().is_none() || scope.color().len() > MOST_COLORS {
+        if scope.attachments.is_empty() || scope.color().len() > MOST_COLORS {
             let count = scope.color().len();
             self.wrong_step(format!("has {count} colour attachments, or none at all, as no rendering scope can"));
         }
         if !scope.is_in_order() {
-            self.wrong_step("lists attachments otherwise than colour, depth, stencil, or depth or stencil twice");
+            self.wrong_step("lists attachments out of order (colour, depth, stencil), or has two of depth or stencil");
         }
         for attachment in &scope.attachments {
             self.attachment(scope, attachment, attachment.kind.plane());
@@ -116,7 +116,8 @@ impl<'p> Check<'_, 'p> {
             let alike = part(depth) == part(stencil);
             self.demand(alike, stencil.image, "is the stencil attachment beside the depth of another part or image");
         }
-        let few = scope.color().len() <= MOST_COLORS;
+        // These compare attachments with each other, however they are ordered.
+        let few = scope.attachments.len() <= MOST_COLORS + 2;
         if few {
             self.exclusive(scope);
         }
@@ -182,9 +183,9 @@ impl<'p> Check<'_, 'p> {
 
     /// Nothing in a scope may access what another part of it writes, but for read-only depth and local reads.
     fn exclusive(&mut self, scope: &RenderScope) {
-        let resolves = || attachments(scope).filter_map(|(attachment, _)| attachment.resolve.as_ref());
+        let resolves = || scope.attachments.iter().filter_map(|attachment| attachment.resolve.as_ref());
         let targets = || {
-            let attached = attachments(scope).map(|(attachment, _)| (attachment.image, attachment.range));
+            let attached = scope.attachments.iter().map(|attachment| (attachment.image, attachment.range));
             attached.chain(resolves().map(|resolve| (resolve.image, resolve.range)))
         };
         for (at, (image, range)) in targets().enumerate() {
@@ -200,8 +201,8 @@ impl<'p> Check<'_, 'p> {
             if ATTACHMENT.contains(access.accesses) {
                 continue;
             }
-            let attachment = attachments(scope).find(|(attachment, _)| same(attachment.image, attachment.range));
-            let Some((attachment, _)) = attachment else { continue };
+            let attachment = scope.attachments.iter().find(|attachment| same(attachment.image, attachment.range));
+            let Some(attachment) = attachment else { continue };
             let read_only = is_read_only(attachment.layout)
                 && access.layout == attachment.layout
                 && access.accesses.writes().is_empty();
@@ -224,8 +225,8 @@ impl<'p> Check<'_, 'p> {
         if !scope.passes.iter().any(reads) {
             return;
         }
-        let begun = attachments(scope).filter(|(attachment, _)| attachment.load != LoadOp::Load);
-        let mut drawn: Vec<_> = begun.map(|(attachment, _)| (attachment.image, attachment.range)).collect();
+        let begun = scope.attachments.iter().filter(|attachment| attachment.load != LoadOp::Load);
+        let mut drawn: Vec<_> = begun.map(|attachment| (attachment.image, attachment.range)).collect();
         let mut read: Vec<(ImageId, Subresources)> = Vec::new();
         for pass in &scope.passes {
             if pass.local_barrier {
@@ -234,7 +235,7 @@ impl<'p> Check<'_, 'p> {
                 }
             }
             for access in pass.accesses.iter().filter(local) {
-                let attached = attachments(scope).any(|(attachment, _)| attachment.image == access.image);
+                let attached = scope.attachments.iter().any(|attachment| attachment.image == access.image);
                 self.demand(attached, access.image, "is read at its own position and no attachment of the scope");
                 if let Some((image, range)) =
                     drawn.iter().find(|(image, range)| *image == access.image && overlap(*range, access.range))
@@ -288,7 +289,7 @@ impl<'p> Check<'_, 'p> {
 
 /// Whether an access is to all of an attachment.
 pub(super) fn is_attached(scope: &RenderScope, access: &Access) -> bool {
-    attachments(scope).any(|(attachment, _)| (attachment.image, attachment.range) == (access.image, access.range))
+    scope.attachments.iter().any(|attachment| (attachment.image, attachment.range) == (access.image, access.range))
 }
 
 /// A read at a fragment's own position.

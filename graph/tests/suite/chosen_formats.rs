@@ -120,7 +120,7 @@ fn what_the_device_can_not_do_with_a_chosen_format_gives_it_up_and_is_said() {
     ] {
         let plan = plan(policies, &device);
         assert_eq!(formats(&plan), expected, "{policies}");
-        let notes = plan.notes.iter().filter(|note| note.stage == Stage::Fit);
+        let notes = plan.notes.iter().filter(|note| note.stage() == Stage::Fit);
         let said: Vec<&str> = notes.map(|note| &*note.text).collect();
         assert!(!said.is_empty() && said.iter().all(|said| said.contains(lacks)), "{policies}: {said:?}");
         let given_up =

@@ -15,7 +15,7 @@ fn pass_names(plan: &Plan) -> Vec<Vec<String>> {
 }
 
 fn note(plan: &Plan, stage: Stage, subject: &str) -> String {
-    let found = plan.notes.iter().find(|note| note.stage == stage && &*note.subject == subject);
+    let found = plan.notes.iter().find(|note| note.stage() == stage && &*note.subject == subject);
     found.map(|note| note.text.clone()).unwrap_or_default()
 }
 

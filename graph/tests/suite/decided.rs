@@ -168,7 +168,7 @@ fn a_pass_that_runs_and_one_that_does_not_name_their_fact() {
     assert_eq!(of_pass(&without, "glass", Property::Runs), "");
     assert_eq!(of_pass(&without, "glass", Property::LeftOut), "scene.has_transparent = false | ");
     let note = without.notes.iter().find(|note| *note.subject == *"glass").expect("a note");
-    assert_eq!((note.stage, &*note.text), (Stage::Expand, "is off: scene.has_transparent = false"));
+    assert_eq!((note.stage(), &*note.text), (Stage::Expand, "is off: scene.has_transparent = false"));
     assert_eq!(of_pass(&without, "soften", Property::LeftOut), " | blur = false");
 }
 

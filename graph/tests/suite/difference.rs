@@ -3,10 +3,12 @@
 use crate::testing::graphs;
 use crate::testing::pipelines::{INPUTS, right, set, shipped};
 use crate::testing::plans::{self, compiled, on};
+use crate::testing::raster::{self, Raster};
 use framewright_graph::device::SHIPPED_PROFILES;
 use framewright_graph::difference::{Change, Differences, Entry, Kind};
 use framewright_graph::expand::Inputs;
 use framewright_graph::plan::Plan;
+use framewright_graph::vulkan::Format;
 use serde_json::Value;
 use std::collections::BTreeSet;
 
@@ -285,4 +287,23 @@ fn collect(value: &Value, name: &str, found: &mut Vec<Value>) {
         }
         _ => {}
     }
+}
+
+#[test]
+fn colours_that_change_their_locations_are_told() {
+    let plan = |swapped: bool| {
+        let mut raster = Raster::default();
+        let [a, b] = ["a", "b"].map(|name| raster.image(name, Format::R8G8B8A8_UNORM, 1));
+        let [first, then] = if swapped { [b, a] } else { [a, b] };
+        raster.objects("draw").clear(first).clear(then);
+        on(&raster.outputs(&[a, b]), &raster::device()).expect("it compiles")
+    };
+    let found = between(&plan(false), &plan(true));
+    let told = of_kind(&found, Kind::Attachment).into_iter().map(|entry| match &entry.change {
+        Change::Changed { fields } => fields.iter().map(|it| (it.name, it.a.as_deref(), it.b.as_deref())).collect(),
+        Change::Added { .. } | Change::Removed { .. } => vec![],
+    });
+    let [one, other] = [Some("color 0"), Some("color 1")];
+    let expected = [vec![("attached as", one, other)], vec![("attached as", other, one)]];
+    assert_eq!(told.collect::<Vec<Vec<_>>>(), expected, "{}", found.text());
 }

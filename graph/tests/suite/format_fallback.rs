@@ -35,7 +35,7 @@ fn format(plan: &Plan, name: &str) -> Format {
 }
 
 fn note(plan: &Plan, subject: &str) -> String {
-    let is_it = |note: &&framewright_graph::plan::Note| note.stage == Stage::Fit && *note.subject == *subject;
+    let is_it = |note: &&framewright_graph::plan::Note| note.stage() == Stage::Fit && *note.subject == *subject;
     plan.notes.iter().find(is_it).map(|note| note.text.clone()).unwrap_or_default()
 }
 

@@ -10,7 +10,7 @@ use framewright_graph::frame::{
 };
 use framewright_graph::plan::{self, Plan, Side};
 use framewright_graph::vulkan::Format::{D32_SFLOAT, D32_SFLOAT_S8_UINT, R8G8B8A8_UNORM, R32_UINT};
-use framewright_graph::vulkan::{Aspects, CompareOp, FillValue, Layout, StencilOp, Subresources};
+use framewright_graph::vulkan::{Aspects, CompareOp, FillValue, Filter, Layout, StencilOp, Subresources};
 
 fn compiled(frame: &Frame) -> Result<Plan, String> {
     let options = Options { order: Order::File, ..Options::default() };
@@ -235,6 +235,75 @@ fn one_plane_of_depth_with_stencil_is_copied_to_a_buffer() {
         let said = compiled(&frame).expect_err("these are two planes");
         assert_eq!(said, format!("{planes}; {}", too_small(4 * u64::from(texels))));
     }
+}
+
+fn transferred(resource: Resource, aspects: Aspects, write: bool) -> TransferUse {
+    let range = Subresources { aspects, ..Subresources::WHOLE };
+    TransferUse { resource, range, frames_ago: 0, span: Span::NONE, write, keeps: false }
+}
+
+#[test]
+fn a_blit_between_planes_of_different_kinds_is_refused() {
+    let mut raster = Raster::default();
+    let [from, to] = ["from", "to"].map(|name| raster.image(name, D32_SFLOAT_S8_UINT, 1));
+    let mut frame = raster.output(to);
+    for image in [from, to] {
+        let all = vec![transferred(Resource::Image(image), Aspects::empty(), true)];
+        let fill = Work::Fill { value: FillValue::Depth(0.5, 1) };
+        frame.passes.push(Pass { transfers: all, ..Pass::new(&format!("fill{}", image.0), fill) });
+    }
+    let blit = |from_plane, to_plane| {
+        let from = transferred(Resource::Image(from), from_plane, false);
+        let to = transferred(Resource::Image(to), to_plane, true);
+        let blit = Pass { transfers: vec![from, to], ..Pass::new("blit", Work::Blit { filter: Filter::Nearest }) };
+        let mut frame = frame.clone();
+        frame.passes.push(blit);
+        compiled(&frame)
+    };
+    for plane in [Aspects::DEPTH, Aspects::STENCIL, Aspects::empty()] {
+        blit(plane, plane).expect("both planes are the same");
+    }
+    for (one, other) in
+        [(Aspects::DEPTH, Aspects::empty()), (Aspects::empty(), Aspects::STENCIL), (Aspects::STENCIL, Aspects::DEPTH)]
+    {
+        let said = blit(one, other).expect_err("the planes differ");
+        assert_eq!(said, "`blit`: `from` can't be scaled into `to`");
+    }
+}
+
+/// What a copy leaves of its target must have been written before.
+#[test]
+fn a_copy_that_is_shorter_than_its_target_says_that_it_keeps_the_rest() {
+    let buffer =
+        |name: &str, bytes| Buffer { name: name.into(), span: Span::NONE, bytes, lifetime: Lifetime::Transient };
+    let mut raster = Raster::default();
+    let color = raster.image("color", R8G8B8A8_UNORM, 1);
+    raster.objects("draw").clear(color);
+    let mut frame = raster.output(color);
+    frame.buffers = vec![buffer("short", 16), buffer("long", 64 * 64 * 4 + 16)];
+    let [short, long] = [0, 1].map(|at| Resource::Buffer(BufferIndex(at)));
+    for (name, target) in [("fill_short", short), ("fill_long", long)] {
+        let fill = Work::Fill { value: FillValue::Bits([0; 4]) };
+        frame
+            .passes
+            .push(Pass { transfers: vec![transferred(target, Aspects::empty(), true)], ..Pass::new(name, fill) });
+    }
+    frame.outputs.push(long.into());
+    let copy = |from, keeps| {
+        let from = transferred(from, Aspects::empty(), false);
+        let to = TransferUse { keeps, ..transferred(long, Aspects::empty(), true) };
+        let mut frame = frame.clone();
+        frame.passes.push(Pass { transfers: vec![from, to], ..Pass::new("copy", Work::Copy) });
+        compiled(&frame)
+    };
+    for from in [short, Resource::Image(color)] {
+        let plan = copy(from, true).expect("it says so");
+        assert_eq!(plan.totals.fills, if from == short { 2 } else { 1 }, "{}", plan.tree());
+    }
+    let said = copy(short, false).expect_err("it doesn't say so");
+    assert_eq!(said, "`copy`: `short` has 16 bytes and `long` has 16400: a copy fills its target whole");
+    let said = copy(Resource::Image(color), false).expect_err("it doesn't say so");
+    assert_eq!(said, "`copy`: `long` has 16400 bytes, but the texels of `color` take 16384");
 }
 
 /// What compiles as other values is drawn with the same images and pipelines.

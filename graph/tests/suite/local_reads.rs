@@ -36,7 +36,7 @@ fn compiled(frame: &Frame, device: &Profile) -> Plan {
 }
 
 fn note(plan: &Plan, subject: &str) -> String {
-    let notes = plan.notes.iter().filter(|note| note.stage == Stage::Scope && *note.subject == *subject);
+    let notes = plan.notes.iter().filter(|note| note.stage() == Stage::Scope && *note.subject == *subject);
     notes.map(|note| note.text.clone()).collect::<Vec<_>>().join("; ")
 }
 

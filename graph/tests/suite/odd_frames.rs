@@ -5,10 +5,13 @@ use crate::testing::plans::refused_on;
 use crate::testing::raster::{self, Raster};
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::{MemoryEstimate, Profile};
-use framewright_graph::frame::{Blend, Frame, Groups, Image, ImageIndex, Lifetime, Pass, Resource, Storage, Work};
+use framewright_graph::frame::{
+    Blend, ColorSpace, Frame, Groups, Image, ImageIndex, Lifetime, Pass, Resource, Storage, TextureFile, Work,
+};
 use framewright_graph::verify::verify;
 use framewright_graph::vulkan::Format::{D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT};
 use framewright_graph::vulkan::{Accesses, Layout, Shape, Stages, State, Subresources};
+use std::sync::Arc;
 
 /// Draws into `color`, filters it to `screen`, and has a compute pass write `noise`, which is filtered, too.
 fn frame() -> Frame {
@@ -56,7 +59,7 @@ fn what_cannot_be_is_refused_in_words() {
     fn noise(frame: &mut Frame) -> &mut Image {
         &mut frame.images[NOISE]
     }
-    let changes: [(&str, Change); 34] = [
+    let changes: [(&str, Change); 36] = [
         ("accesses `color` as storage, which has several samples", |frame| {
             frame.passes.push(dispatch("keep", ImageIndex(0)));
         }),
@@ -103,6 +106,16 @@ fn what_cannot_be_is_refused_in_words() {
         ("`screen` can't be left in the layout UNDEFINED", |frame| {
             let Lifetime::Imported { before, .. } = imported(Accesses::empty(), Layout::Undefined) else { return };
             frame.outputs[0].after = Some(before);
+        }),
+        ("`noise` comes from a file and has layers", |frame| {
+            noise(frame).lifetime =
+                Lifetime::File(Arc::new(TextureFile { path: "a.png".into(), color_space: ColorSpace::Linear }));
+            noise(frame).layers = 2;
+        }),
+        ("`on`: `noise` has 2 mip levels: a stand-in forwards between flat images", |frame| {
+            noise(frame).mips = 2;
+            let (from, to) = (ImageIndex(1), ImageIndex(2));
+            frame.passes.push(Pass::new("on", Work::Forward { from, to, because: String::new() }));
         }),
         ("an output does not exist", |frame| frame.outputs[0].resource = Resource::Image(ImageIndex(9))),
         ("names image number 9, which does not exist", |frame| frame.passes[0].storage[0].image = ImageIndex(9)),

@@ -86,6 +86,10 @@ impl<'p> Explainer<'p> {
         if parts.is_empty() {
             parts = self.folded_resolve(node);
         }
+        if parts.is_empty() {
+            let own = self.steps().filter(|step| step.step == Some(node.step) && step.cause().is_some());
+            parts.extend(own.map(|step| leaf(self.text.line(step).text)));
+        }
         parts.extend(node.because.iter().map(|because| leaf(format!("it was inserted: {because}"))));
         let edges = |pick: fn(&Edge) -> Option<u32>, other: fn(&Edge) -> Option<u32>, beside: &str| {
             let found = self.flow.edges.iter().filter(|edge| pick(edge) == Some(at));
@@ -314,10 +318,7 @@ impl<'p> Explainer<'p> {
     fn placements(&self) -> impl Iterator<Item = (Resource, &Placement)> {
         let images = self.plan.images.iter().map(|image| (Resource::Image(image.id), &image.role));
         let buffers = self.plan.buffers.iter().map(|buffer| (Resource::Buffer(buffer.id), &buffer.role));
-        images.chain(buffers).filter_map(|(resource, role)| match role {
-            Role::Transient(placement) => Some((resource, placement)),
-            Role::Persistent { .. } | Role::External { .. } => None,
-        })
+        images.chain(buffers).filter_map(|(resource, role)| Some((resource, role.placement()?)))
     }
 
     fn name(&self, resource: Resource) -> String {

@@ -75,7 +75,7 @@ fn draw_and_write(arguments: &RunArguments) -> Result<Exit, Error> {
         text::say(&format!("note: it is drawn for {eyes} by `--stereo {}`", stereo.name()));
     }
     // A format or sample count that the device lacks changes the picture.
-    for line in notes::lines(plan.notes.iter().filter(|note| note.stage == Stage::Fit)) {
+    for line in notes::lines(plan.notes.iter().filter(|note| note.stage() == Stage::Fit)) {
         text::say(&line);
     }
     for name in not_handed_in(&plan) {

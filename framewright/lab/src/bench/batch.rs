@@ -124,7 +124,7 @@ fn fewer_samples(planned: &PlannedFrame) -> Option<String> {
     targets.find_map(|target| {
         let wanted = frame.images.get(target.image.0 as usize)?;
         let has = plan.images.iter().find(|image| image.name == wanted.name)?.samples;
-        let noted = |note: &&Note| note.stage == Stage::Fit && note.subject == wanted.name;
+        let noted = |note: &&Note| note.stage() == Stage::Fit && note.subject == wanted.name;
         let why = plan.notes.iter().find(noted).map_or("the device has no more samples", |note| &*note.text);
         (has < wanted.samples).then(|| format!("`{}`: {why}", wanted.name))
     })

@@ -3,8 +3,8 @@
 use super::adapter::{Adapter, Version};
 use super::demote::copies_samples;
 use crate::compile::model::{Kind, MemorySource, PhysicalIndex, PhysicalResource, Use};
-use crate::compile::parts::Grid;
 use crate::device::{BufferDescriptor, ImageDescriptor};
+use crate::frame::tracked_parts::Grid;
 use crate::frame::{BufferIndex, Frame, ImageIndex, Lifetime, Output, Pass, Resource, TransferUse};
 use crate::plan::InsertionCause;
 use crate::vulkan::{BufferUsage, FillValue, Format, Rotation, Sharing, Usage};

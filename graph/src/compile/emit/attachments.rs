@@ -5,7 +5,6 @@ use super::stage_results::{StageResults, cause};
 use crate::compile::model::{OpKind, Role};
 use crate::compile::retain::{AttachmentOps, LaterUse};
 use crate::compile::scope::{Scope, Target, op_name};
-use crate::frame::Blend;
 use crate::plan::{Attachment, AttachmentKind, AttachmentResolve, ImageId, NextUse, Pass, Reason, RenderScope};
 use crate::vulkan::{Layout, LoadOp};
 use std::sync::Arc;
@@ -124,15 +123,21 @@ fn attachment_resolve(results: &StageResults<'_>, number: u32) -> Option<Attachm
 /// Why the pass that uses a loaded attachment first may leave texels of it as they were, if it would set them all otherwise.
 fn untouched(results: &StageResults<'_>, ops: &AttachmentOps) -> Option<Arc<str>> {
     let OpKind::Draw(number) = results.adapted.ops.get(ops.first as usize)?.kind else { return None };
-    let pass = &results.frame.passes[number as usize];
-    let untouched = pass.untouched.as_ref()?;
+    let frame = results.frame;
+    let pass = &frame.passes[number as usize];
     let uses = results.adapted.uses(ops.first);
     let used = uses.iter().find(|used| used.role == ops.role && Target::of(results.adapted, used) == ops.target)?;
-    let replaces = match ops.role.attachment()? {
-        AttachmentKind::Color => pass.color.get(used.entry as usize)?.blend == Blend::Replace,
-        AttachmentKind::Depth | AttachmentKind::Stencil => pass.depth.as_ref()?.write,
+    let why = match ops.role.attachment()? {
+        AttachmentKind::Color => {
+            let target = pass.color.get(used.entry as usize)?;
+            pass.untouched_color(target, &frame.images[target.image.0 as usize])
+        }
+        kind @ (AttachmentKind::Depth | AttachmentKind::Stencil) => {
+            let target = pass.depth.as_ref()?;
+            pass.untouched_plane(target, kind.plane(), &frame.images[target.image.0 as usize])
+        }
     };
-    replaces.then(|| untouched.clone())
+    why.cloned()
 }
 
 /// Why an attachment has these operations.

@@ -1,9 +1,9 @@
 //! Barriers of each step: those of neighbouring subresources become one.
 
 use super::stage_results::{StageResults, resource_id};
-use crate::compile::parts::join;
 use crate::compile::steps::NEVER;
 use crate::compile::sync::{BarrierAtStep, SubresourceBarrier};
+use crate::frame::tracked_parts::join;
 use crate::plan::{BufferHazard, BufferId, Hazard, ImageBarrier, ImageId, MemoryBarrier, StepId};
 use crate::vulkan::{Accesses, Subresources};
 

@@ -18,11 +18,13 @@ pub(super) fn outputs(results: &StageResults<'_>) -> Vec<Output> {
             }
             _ => None,
         };
-        let name = match declared.resource {
-            Declared::Image(image) => &frame.images[image.0 as usize].name,
-            Declared::Buffer(buffer) => &frame.buffers[buffer.0 as usize].name,
-        };
-        Output { name: name.clone(), resource: resource_id(resource), encoding, encoded, eye: declared.eye }
+        Output {
+            name: frame.name(declared.resource).clone(),
+            resource: resource_id(resource),
+            encoding,
+            encoded,
+            eye: declared.eye,
+        }
     });
     outputs.collect()
 }
@@ -60,14 +62,9 @@ fn encoded(frame: &Frame, image: ImageIndex, format: Format) -> String {
 
 /// The last pass before number `before` that writes `image`, with its number.
 fn last_writer(frame: &Frame, image: ImageIndex, before: usize) -> Option<(usize, &Pass)> {
-    let writes = |pass: &Pass| {
-        let forwarded = pass.work.forwarded().is_some_and(|[_, to]| to == image);
-        let transferred = |used: &crate::frame::TransferUse| used.write && used.resource == Declared::Image(image);
-        forwarded
-            || pass.color.iter().any(|target| target.image == image)
-            || pass.storage.iter().any(|storage| storage.write && storage.image == image)
-            || pass.transfers.iter().any(transferred)
-    };
+    let declared = frame.images.get(image.0 as usize);
+    let writes =
+        |pass: &Pass| pass.accesses().any(|it| it.resource() == Declared::Image(image) && it.writes(pass, declared));
     frame.passes[..before].iter().enumerate().rev().find(|(_, pass)| writes(pass))
 }
 

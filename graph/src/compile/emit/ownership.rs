@@ -1,8 +1,8 @@
 //! Queue family ownership transfers: their two halves, release and acquire, name the same subresources.
 
 use super::stage_results::StageResults;
-use crate::compile::parts::join;
 use crate::compile::queues::OwnershipTransfer;
+use crate::frame::tracked_parts::join;
 use crate::plan::{Hazard, ImageBarrier, ImageId, StepId};
 use crate::vulkan::{Accesses, Stages};
 

@@ -6,7 +6,6 @@
 use super::crossing::{Crossing, LayoutChange};
 use super::number::QUEUES;
 use super::step_uses::uses_of;
-use crate::compile::access_chain::stands_beside_reads;
 use crate::compile::model::{AdaptedFrame, PhysicalIndex, SubresourceIndex};
 use crate::compile::scope::{ScopedSteps, Step};
 use crate::plan::Queue;
@@ -86,7 +85,7 @@ fn candidates(
                 let subresource = &mut subresources[index as usize];
                 if used.writes {
                     *subresource = LastUse { layout: used.layout, written: Some(at), change: None };
-                } else if !stands_beside_reads(used.writes, used.layout, subresource.layout) {
+                } else if used.layout != subresource.layout {
                     let change = LayoutChange { subresource: index, resource, layout: used.layout };
                     let behind = subresource.written.take().filter(|written| *written != at);
                     let next = candidates.len() as u32;

@@ -15,8 +15,8 @@ pub(super) struct Dependencies {
 }
 
 impl Dependencies {
-    /// The dependencies between `runs`. Reads count as if all were in one layout: in whichever order they change it, they read
-    /// the same.
+    /// The dependencies between `runs`. Reads in different layouts don't depend on each other here: they may run in any order, and the
+    /// layout is changed in that order.
     pub(super) fn between(runs: &Runs) -> Dependencies {
         let layout = Layout::Undefined;
         let mut chains: Vec<AccessChain<Option<u32>>> = vec![AccessChain::new(); runs.subresources()];

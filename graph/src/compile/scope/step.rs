@@ -1,7 +1,7 @@
 //! Steps, rendering scopes and their attachments.
 
 use crate::compile::model::{AdaptedFrame, OpKind, PhysicalIndex, Role, Use};
-use crate::frame::{Frame, Resource};
+use crate::frame::Frame;
 use crate::vulkan::Subresources;
 use std::sync::Arc;
 
@@ -62,10 +62,7 @@ impl Step {
 /// The name of a physical image or buffer.
 pub(crate) fn resource_name<'n>(frame: &'n Frame, adapted: &'n AdaptedFrame, resource: PhysicalIndex) -> &'n Arc<str> {
     let resource = &adapted.resources[resource as usize];
-    resource.renamed.as_ref().unwrap_or(match resource.of {
-        Resource::Image(image) => &frame.images[image.0 as usize].name,
-        Resource::Buffer(buffer) => &frame.buffers[buffer.0 as usize].name,
-    })
+    resource.renamed.as_ref().unwrap_or_else(|| frame.name(resource.of))
 }
 
 /// The colour attachments of an operation with these uses.

@@ -2,8 +2,8 @@
 
 use crate::compile::model::Use;
 
-/// The steps that used a subresource so far, numbered in execution order. Layouts and reads among each other make no
-/// difference here, and ways of use do: so this is no [`AccessChain`](crate::compile::access_chain::AccessChain).
+/// The last steps that used a subresource, by their numbers in execution order. Whether passes can share a scope depends on how they
+/// use it, not on its layouts: so this is no [`AccessChain`](crate::compile::access_chain::AccessChain).
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Trace {
     /// The last step that used it.

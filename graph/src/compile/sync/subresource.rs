@@ -7,8 +7,9 @@ use crate::compile::steps::NEVER;
 use crate::plan::Hazard;
 use crate::vulkan::{Accesses, Layout, Stages};
 
-/// The accesses to a subresource since the last barrier: one write, or reads in one layout. Whatever comes behind them takes
-/// another barrier, so that nothing older need be known, as it is in an [`AccessChain`](crate::compile::access_chain::AccessChain).
+/// The accesses to a subresource since its last barrier: one write, or reads in one layout. The next access that can't stand beside them
+/// gets a barrier of its own, which waits for these alone: they waited for all older accesses. So, unlike an
+/// [`AccessChain`](crate::compile::access_chain::AccessChain), it forgets what stands before the last barrier.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct SubresourceState {
     pub(super) stages: Stages,

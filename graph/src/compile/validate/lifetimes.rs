@@ -1,9 +1,9 @@
 //! How long contents live: from which values they start, how far back they are kept, in which states they come and go.
 
 use crate::base::{Code, Diagnostic, Span};
-use crate::frame::{Access, Frame, Lifetime, Pass, TextureFile, format_problem};
+use crate::frame::{Access, Frame, Image, Lifetime, Pass, TextureFile, format_problem};
 use crate::vulkan::states::{StateTime, Subject, contradiction};
-use crate::vulkan::{Layout, State};
+use crate::vulkan::{Layout, Shape, State};
 
 /// Most frames that history goes back: as many as the checker of the Plan can follow around.
 const MOST_HISTORY: u32 = 32;
@@ -44,6 +44,13 @@ fn file_problem(file: &TextureFile, of: Subject<'_>) -> Option<String> {
     } else {
         format_problem(file, format).map(|why| format!("comes from a file and is {format}: {why}"))
     }
+}
+
+/// Why an image can't come from a file for its shape.
+pub(super) fn shape_problem(image: &Image) -> Option<String> {
+    let layered = image.layers > 1 || image.shape == Shape::Cube;
+    let of_file = matches!(image.lifetime, Lifetime::File(_));
+    (of_file && layered).then(|| "comes from a file and has layers".to_owned())
 }
 
 /// Where a pass uses an image that comes from a file for anything but sampling it.

@@ -60,11 +60,11 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
     if errors.is_empty() { Ok(()) } else { Err(errors) }
 }
 
-/// Whether a frame is valid that differs from a valid one in nothing but values.
+/// Whether a frame is valid that differs from a valid one in nothing but values: those of fills and clears can be wrong.
 pub(super) fn still_holds(frame: &Frame) -> bool {
     let mut errors = Vec::new();
     for pass in &frame.passes {
-        if pass.work.is_transfer() {
+        if pass.work.filled().is_some() {
             Check { frame, pass, errors: &mut errors }.transfers();
         } else if pass.work.is_draw() && wrong_clear(frame, pass).is_some() {
             return false;
@@ -73,13 +73,14 @@ pub(super) fn still_holds(frame: &Frame) -> bool {
     errors.is_empty()
 }
 
-/// What is wrong with how an image is resolved, or holds eyes.
+/// What is wrong with how an image is resolved, holds eyes, or comes from a file.
 fn problem(image: &Image, stereo: Stereo) -> Option<(Code, String)> {
     let unfit = image.resolve.as_ref().is_some_and(|resolve| !resolve.way.fits(image.format));
     if unfit {
         return Some((Code::RESOLVE_UNFIT, format!("can't be resolved as it says: it is {}", image.format)));
     }
-    eyes::image_problem(image, stereo).map(|what| (Code::BOTH_EYES, what))
+    let of_eyes = eyes::image_problem(image, stereo).map(|what| (Code::BOTH_EYES, what));
+    of_eyes.or_else(|| lifetimes::shape_problem(image).map(|what| (Code::LIFETIME, what)))
 }
 
 /// Each view has a name of its own and a size, and each pass one of them.

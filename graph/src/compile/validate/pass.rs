@@ -2,7 +2,7 @@
 
 use super::lifetimes;
 use crate::base::{Code, Diagnostic, Span};
-use crate::frame::check::targets::{Target, agree, undrawable, without_depth};
+use crate::frame::check::targets::{Target, agree, not_forwarded, undrawable, without_depth};
 use crate::frame::{Access, Frame, Image, ImageIndex, Lifetime, Pass, Resource, VisitAccess, check};
 use crate::vulkan::{Stages, Subresources};
 
@@ -66,8 +66,10 @@ impl Check<'_> {
         if !range.is_whole() {
             self.inside(image, range, span);
         }
-        if access.attaches() || matches!(access, Access::ForwardSource(..) | Access::ForwardTarget(..)) {
+        if access.attaches() {
             self.within(undrawable(image, range, image, [span, span]));
+        } else if matches!(access, Access::ForwardSource(..) | Access::ForwardTarget(..)) {
+            self.within(not_forwarded(image, image, span));
         }
         if let Access::Depth(_) = access {
             self.within(without_depth(image, image, span));
@@ -164,7 +166,8 @@ impl Check<'_> {
     fn targets(&mut self) {
         let Check { frame, pass, errors } = self;
         if pass.color.len() + usize::from(pass.depth.is_some()) > 1 {
-            let targets = pass.accesses().filter(Access::attaches).filter_map(|target| {
+            let targets = pass.color.iter().map(Access::Color).chain(pass.depth.iter().map(Access::Depth));
+            let targets = targets.filter_map(|target| {
                 let image = &frame.images[target.image_index()?.0 as usize];
                 Some(Target { image, range: target.range(), span: target.span(), samples_because: None })
             });

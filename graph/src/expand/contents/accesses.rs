@@ -54,20 +54,20 @@ pub(in crate::expand) fn contents<'p>(resources: &Resources<'_>, parts: &'p Part
 
 /// Shows what `pass` uses of this frame, as far as it is known.
 pub(super) fn for_each_use(resources: &Resources<'_>, pass: &Pass, mut see: impl FnMut(Use)) {
-    for access in pass.accesses().filter(|access| access.frames_ago() == 0) {
+    pass.visit_accesses(&mut |access: Access<'_>| {
         let (resource, span, attaches) = (access.resource(), access.span(), access.attaches());
         let image = match resource {
             Resource::Image(index) => resources.image(index).map(|image| &image.image),
             Resource::Buffer(_) => None,
         };
-        if image.is_none() && access.image_index().is_some() {
-            continue;
+        if access.frames_ago() > 0 || image.is_none() && access.image_index().is_some() {
+            return;
         }
         access.for_each_effect(pass, image, |Effect { range, reads, writes }| {
             let part = tracked_parts::part_of(image, range);
             see(Use { resource, part, span, attaches, reads, writes: writes || attaches });
         });
-    }
+    });
 }
 
 /// What `pass` uses of this frame, as [`for_each_use`] shows it.

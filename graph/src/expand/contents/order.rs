@@ -4,7 +4,7 @@ use super::accesses;
 use super::waits::{self, Need};
 use super::writers::{Writer, Writers};
 use crate::base::{Code, Diagnostic, Span, keep};
-use crate::expand::mistakes;
+use crate::expand::mistakes::{self, ReportedMistakes};
 use crate::expand::passes::State;
 use crate::expand::resources::Resources;
 use crate::frame::check::contents::{Demand, MissingContents};
@@ -24,6 +24,8 @@ struct Check<'a> {
     parts: &'a Parts<'a>,
     writers: Writers,
     errors: &'a mut Vec<Diagnostic>,
+    /// Mistakes that were found so far, also those that are told once for several passes.
+    found: usize,
 }
 
 /// Who reads an image or buffer.
@@ -56,10 +58,11 @@ pub(in crate::expand) fn check(
     states: &[State],
     outputs: &[Output],
     parts: &Parts<'_>,
-    errors: &mut Vec<Diagnostic>,
+    (reported, errors): (&mut ReportedMistakes, &mut Vec<Diagnostic>),
 ) {
     let mut contents = accesses::contents(resources, parts);
-    let mut check = Check { resources, states, parts, writers: Writers::find(resources, states), errors };
+    let (writers, found) = (Writers::find(resources, states), errors.len());
+    let mut check = Check { resources, states, parts, writers, errors, found };
     for ((position, state), number) in states.iter().enumerate().zip(1..) {
         let described = &resources.pipeline.passes[position];
         let name = &described.name.text;
@@ -82,22 +85,32 @@ pub(in crate::expand) fn check(
                 }
             }
         }
+        reported.once(check.errors, before);
         mistakes::used_here(resources.pipeline, described.instance, &mut check.errors[before..]);
     }
     for (state, described) in states.iter().zip(&resources.pipeline.passes) {
+        let before = check.errors.len();
         for found in state.runs().iter().flat_map(|pass| contents.earlier(pass)).collect::<Vec<_>>() {
             check.needs(states.len(), &found, Reader::Pass(&described.name.text));
         }
+        reported.once(check.errors, before);
     }
     for output in outputs {
+        let before = check.errors.len();
         let reader = if output.span == Span::NONE { Reader::Dump } else { Reader::Frame };
         if let Some(found) = contents.output(output.resource, output.span) {
             check.needs(states.len(), &found, reader);
         }
+        reported.once(check.errors, before);
     }
 }
 
 impl Check<'_> {
+    fn report(&mut self, mistake: Diagnostic) {
+        self.found += 1;
+        keep(self.errors, mistake);
+    }
+
     fn unwritten(&mut self, position: usize, pass: &Pass, found: &MissingContents, reader: Reader<'_>) {
         match found.demand {
             Demand::Color | Demand::Depth => self.continues(position, pass, found),
@@ -153,7 +166,7 @@ impl Check<'_> {
                 .label(declared.span, "declared here");
             self.removed(wrong, name)
         };
-        keep(self.errors, diagnostic);
+        self.report(diagnostic);
     }
 
     /// Where a pass is named, and each use that it came by: the same places for all that one entry repeats.
@@ -178,7 +191,7 @@ impl Check<'_> {
             return wrong.label(writer.span, "first written here, by the same pass").help(help);
         }
         let first = Need { pass: position, resource: of, span, writer: writer.position };
-        let few = self.errors.len() < MANY_MISTAKES;
+        let few = self.found < MANY_MISTAKES;
         if few && let Some(circle) = waits::circle(self.resources, self.states, &self.writers, first) {
             return waits::report(self.resources, &circle);
         }
@@ -263,7 +276,7 @@ impl Check<'_> {
             diagnostic =
                 diagnostic.label(writer.span, format!("pass `{off}` would come first, but is off ({because})"));
         }
-        keep(self.errors, diagnostic);
+        self.report(diagnostic);
     }
 
     /// "`color`", or "mip level 2 of `color`" where only a part is missing.
@@ -293,7 +306,7 @@ impl Check<'_> {
     /// The first pass that runs and writes the part, or after many mistakes any part.
     fn writer_of(&self, of: Resource, missing: Subresources) -> Option<Writer> {
         let writers = &self.writers.on[self.writers.index(of)];
-        let few = self.errors.len() < MANY_MISTAKES;
+        let few = self.found < MANY_MISTAKES;
         let writes = |writer: &&Writer| {
             let pass = self.states[writer.position].runs();
             let uses = pass.iter().flat_map(|pass| accesses::uses(self.resources, pass));

@@ -3,7 +3,7 @@
 use crate::base::{Code, Diagnostic};
 use crate::expand::resources::{FrameImage, Resources, fills, parts};
 use crate::expand::shader::coverage;
-use crate::frame::check::targets::{Target, agree, undrawable, without_depth};
+use crate::frame::check::targets::{Target, agree, not_forwarded, undrawable, without_depth};
 use crate::frame::{Blend, NoteKind, Remark};
 use crate::language::{self, ImagePart, ImageRef};
 use crate::ron::Name;
@@ -59,6 +59,10 @@ pub(in crate::expand) fn fit(resources: &Resources<'_>, pass: &language::Pass, e
     agree(&pass.name.text, targets, errors);
     for stand_in in &pass.otherwise {
         let language::StandIn::Forward(forward) = stand_in else { continue };
+        for side in [forward.from, forward.to] {
+            let declared = resources.declared(side.index);
+            errors.extend(resolved(side).and_then(|it| not_forwarded(&it.image, declared, side.span)));
+        }
         if let (Some(from), Some(to)) = (resolved(forward.from), resolved(forward.to))
             && kind(from) != kind(to)
         {

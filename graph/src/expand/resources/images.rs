@@ -3,6 +3,7 @@
 use super::follow::follow_all;
 use super::shapes;
 use crate::base::{Code, Diagnostic, Span};
+use crate::expand::mistakes::ReportedMistakes;
 use crate::frame::check::Property;
 use crate::frame::check::images::Declaration;
 use crate::frame::{self, Image, Lifetime, check};
@@ -23,7 +24,7 @@ pub(in crate::expand) fn resolve(
     pipeline: &Pipeline,
     extent: [u32; 2],
     output: Format,
-    errors: &mut Vec<Diagnostic>,
+    (reported, errors): (&mut ReportedMistakes, &mut Vec<Diagnostic>),
 ) -> Vec<Option<FrameImage>> {
     let images = &pipeline.images;
     let formats = follow_all(
@@ -31,6 +32,7 @@ pub(in crate::expand) fn resolve(
         |image| image.format.value.follows().map(index),
         |image, followed| format(image, output, followed),
     );
+    let before = errors.len();
     let areas = follow_all(
         images,
         |image| image.size.value.follows().map(index),
@@ -40,6 +42,7 @@ pub(in crate::expand) fn resolve(
             area.map_err(|wrong| errors.push(wrong)).ok().flatten()
         },
     );
+    reported.each_once(errors, before);
     let samples = follow_all(
         images,
         |image| image.samples.value.follows().map(index),
@@ -79,9 +82,11 @@ pub(in crate::expand) fn resolve(
             chosen: None,
             lifetime: Lifetime::Transient,
         };
-        let image = Image { resolve: asked(described, &image, policy, errors)?, ..image };
-        let image = shapes::shaped(described, image, layers?, mips?, errors)?;
-        Some(FrameImage { image, samples_because })
+        let before = errors.len();
+        let image = asked(described, &image, policy, errors)
+            .and_then(|resolve| shapes::shaped(described, Image { resolve, ..image }, layers?, mips?, errors));
+        reported.once(errors, before);
+        Some(FrameImage { image: image?, samples_because })
     })
     .collect()
 }

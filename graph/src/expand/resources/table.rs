@@ -4,7 +4,7 @@ use super::follow::{follow, follow_all};
 use super::{fills, images, states};
 use crate::base::{Code, Diagnostic, Span};
 use crate::expand::inputs::Inputs;
-use crate::expand::mistakes::used_here;
+use crate::expand::mistakes::{ReportedMistakes, used_here};
 use crate::frame::{Buffer, BufferIndex, ImageIndex, Lifetime, Resource};
 use crate::language::{self, Bytes, LARGEST_BUFFER, Lifetime as Described, Part, Pipeline};
 use crate::ron::{Name, Spanned};
@@ -20,14 +20,15 @@ pub(in crate::expand) struct Resources<'a> {
 }
 
 impl<'a> Resources<'a> {
-    /// Resolves all of them, for a frame with these inputs.
+    /// Resolves all of them, for a frame with these inputs. Each mistake in a repeated declaration is told once.
     pub(in crate::expand) fn resolve(
         pipeline: &'a Pipeline,
         inputs: &Inputs<'_>,
+        reported: &mut ReportedMistakes,
         errors: &mut Vec<Diagnostic>,
     ) -> Resources<'a> {
         let output = inputs.window.unwrap_or(Format::R8G8B8A8_SRGB);
-        let mut images = images::resolve(pipeline, inputs.output_extent, output, errors);
+        let mut images = images::resolve(pipeline, inputs.output_extent, output, (reported, errors));
         let lifetimes = lifetimes(pipeline);
         let (of_images, of_buffers) = lifetimes.split_at(images.len());
         for ((image, described), kept) in images.iter_mut().zip(&pipeline.images).zip(of_images) {
@@ -39,6 +40,7 @@ impl<'a> Resources<'a> {
                     Some(lifetime) => resolved.image.lifetime = lifetime,
                     None => *image = None,
                 }
+                reported.once(errors, before);
                 used_here(pipeline, described.instance, &mut errors[before..]);
             }
         }
@@ -54,6 +56,7 @@ impl<'a> Resources<'a> {
                 follow(buffers, &mut sizes, at, next, |buffer, followed| bytes(&images, buffer, followed, errors));
             let subject = Subject { name: &buffer.name.text, format: None, samples: 1 };
             let lifetime = lifetime(buffer.lifetime.span, of_buffers[at], subject, errors);
+            reported.once(errors, before);
             used_here(pipeline, buffer.instance, &mut errors[before..]);
             let (name, span) = (buffer.name.text.clone(), buffer.name.span);
             Some(Buffer { name, span, bytes: bytes?, lifetime: lifetime? })

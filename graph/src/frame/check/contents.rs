@@ -7,9 +7,9 @@ use crate::frame::tracked_parts::Parts;
 use crate::frame::{Access, Pass, Resource};
 use crate::vulkan::Subresources;
 
-/// A part has no contents.
+/// In place of a writer's number: nothing has written the part.
 pub(crate) const NOTHING: u32 = u32::MAX;
-/// A part has contents from before the first pass.
+/// In place of a writer's number: the part has contents from before the first pass.
 pub(crate) const BEFORE: u32 = 0;
 
 /// What is written while passes are followed in their order.
@@ -114,12 +114,14 @@ impl<'p> Contents<'p> {
     /// What a pass reads of earlier frames and no pass of this frame writes; after all passes.
     pub(crate) fn earlier(&mut self, pass: &Pass) -> Vec<MissingContents> {
         let mut found = Vec::new();
-        for access in pass.accesses().filter(|access| access.frames_ago() > 0) {
-            access.for_each_effect(pass, self.parts.image(access.resource()), |effect| {
-                let unwritten = self.unwritten(access.resource(), effect.range, access.span());
-                found.extend(unwritten.map(|it| MissingContents { demand: Demand::Earlier, ..it }));
-            });
-        }
+        pass.visit_accesses(&mut |access: Access<'_>| {
+            if access.frames_ago() > 0 {
+                access.for_each_effect(pass, self.parts.image(access.resource()), |effect| {
+                    let unwritten = self.unwritten(access.resource(), effect.range, access.span());
+                    found.extend(unwritten.map(|it| MissingContents { demand: Demand::Earlier, ..it }));
+                });
+            }
+        });
         found
     }
 

@@ -2,7 +2,7 @@
 
 use super::Property;
 use crate::base::{Code, Diagnostic, Span};
-use crate::frame::{Image, Lifetime, SAMPLE_COUNTS};
+use crate::frame::{Image, SAMPLE_COUNTS};
 use crate::vulkan::{Encoding, Shape};
 
 /// The declaration of an image.
@@ -115,10 +115,5 @@ pub(crate) fn check(image: &Image, declared: &impl Declaration, errors: &mut Vec
     {
         let what = format!("has {samples} samples, so it is two-dimensional and has one mip level");
         errors.push(with(wrong(Code::SAMPLE_COUNT, Property::Samples, what), at, remark));
-    }
-    if let Lifetime::File(_) = image.lifetime
-        && (layers > 1 || shape == Shape::Cube)
-    {
-        errors.push(wrong(Code::LIFETIME, Property::Lifetime, "comes from a file and has layers".to_owned()));
     }
 }

@@ -1,6 +1,8 @@
-//! The rules of a frame, for pipeline files and programs alike. Each is checked, and its mistake put into words, here alone.
+//! The rules of a frame that pipeline files and programs share: shapes of images, targets, copies and blits, and contents that must be
+//! there. Each is checked here, and put into words here but for contents.
 //!
-//! `expand` knows where a file says what is wrong. `compile` checks frames of programs, and says which pass is wrong.
+//! `expand` knows where a file says what is wrong. `compile` checks frames of programs, and says which pass is wrong. Values that a
+//! format doesn't hold, and what only a program can say wrong, each of them checks by itself.
 
 pub(crate) mod contents;
 pub(crate) mod images;
@@ -15,17 +17,17 @@ pub(crate) trait CheckContext {
     /// Whether it comes from a file. A program may do some things that no file may.
     const OF_FILE: bool;
 
-    /// An image; `None` if it is wrong itself.
+    /// An image; `None` if it has a mistake of its own.
     fn image(&self, index: ImageIndex) -> Option<&Image>;
 
-    /// A buffer; `None` if it is wrong itself.
+    /// A buffer; `None` if it has a mistake of its own.
     fn buffer(&self, index: BufferIndex) -> Option<&Buffer>;
 
     /// Where something is said.
     fn span(&self, place: Place) -> Span;
 }
 
-/// A place of a mistake that a frame doesn't know. The sides of a transfer are its source (0) and its target (1).
+/// A place of a mistake that only the file knows. The sides of a transfer are its source (0) and its target (1).
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Place {
     /// A property of an image, where it is declared.

@@ -80,6 +80,20 @@ pub(crate) fn undrawable(
     several.then(|| several_levels(image, [part, declared.at(Property::Mips).0], "is drawn into"))
 }
 
+/// What is wrong with an image that a stand-in forwards or that it forwards to, if anything is: it is flat and has one mip level. `here`:
+/// where the stand-in names it.
+#[inline]
+pub(crate) fn not_forwarded(image: &Image, declared: &impl Declaration, here: Span) -> Option<Diagnostic> {
+    let (property, what) = match image {
+        Image { shape: Shape::D3, .. } => (Property::Shape, "is three-dimensional".to_owned()),
+        Image { mips: 1, .. } => return None,
+        Image { mips, .. } => (Property::Mips, format!("has {mips} mip levels")),
+    };
+    let message = format!("`{}` {what}: a stand-in forwards between flat images with one mip level", image.name);
+    let wrong = Diagnostic::new(Code::STAND_IN_UNFIT, here, message).label(declared.at(property).0, "declared here");
+    Some(wrong.help("let another pass, whose `when` is the opposite, write what the pass would have written"))
+}
+
 /// What is wrong with a depth target, if anything is: its image has no depth.
 #[inline]
 pub(crate) fn without_depth(image: &Image, declared: &impl Declaration, here: Span) -> Option<Diagnostic> {

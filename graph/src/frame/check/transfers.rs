@@ -71,6 +71,16 @@ impl Side<'_> {
         };
         format!("{width}×{height}{deep}{layers}")
     }
+
+    /// "D32_SFLOAT_S8_UINT", "stencil of D32_SFLOAT_S8_UINT"
+    fn texels(&self) -> String {
+        let format = self.image.format;
+        match self.part.aspects {
+            planes if planes == format.aspects() => format.to_string(),
+            Aspects::STENCIL => format!("stencil of {format}"),
+            _ => format!("depth of {format}"),
+        }
+    }
 }
 
 struct Check<'c, C> {
@@ -79,6 +89,7 @@ struct Check<'c, C> {
 }
 
 impl<'c, C: CheckContext> Check<'c, C> {
+    #[track_caller]
     fn wrong(&mut self, code: Code, at: Span, message: impl Into<String>) {
         self.errors.push(Diagnostic::new(code, at, message));
     }
@@ -120,27 +131,27 @@ impl<'c, C: CheckContext> Check<'c, C> {
             }
             (Resource::Image(_), Resource::Buffer(buffer)) => {
                 if let Some(image) = self.one_level(0, source) {
-                    self.rows(&image, (target.span, buffer), true);
+                    self.rows(&image, (target, buffer), true);
                 }
             }
             (Resource::Buffer(buffer), Resource::Image(_)) => {
                 if let Some(image) = self.one_level(1, target) {
-                    self.rows(&image, (source.span, buffer), false);
+                    self.rows(&image, (source, buffer), false);
                 }
             }
         }
     }
 
-    /// A buffer is not copied onto itself. A file's copy fills its target whole.
+    /// A buffer is not copied onto itself. A copy fills its target whole; a program's may say that it keeps the rest.
     fn buffers(&mut self, [source, target]: [&TransferUse; 2], from: &Buffer, to: &Buffer) {
-        let fits = if C::OF_FILE { from.bytes == to.bytes } else { from.bytes <= to.bytes };
+        let fits = from.bytes == to.bytes || target.keeps && from.bytes < to.bytes;
         if (source.resource, source.frames_ago) == (target.resource, target.frames_ago) {
             self.wrong(Code::TRANSFER_TO_ITSELF, target.span, "a buffer can't be copied to itself");
         } else if !fits {
-            let message = format!(
-                "`{}` has {} bytes and `{}` has {}: a copy fills its target whole",
-                from.name, from.bytes, to.name, to.bytes
-            );
+            let rule =
+                if from.bytes < to.bytes { "a copy fills its target whole" } else { "it has no room for a copy" };
+            let message =
+                format!("`{}` has {} bytes and `{}` has {}: {rule}", from.name, from.bytes, to.name, to.bytes);
             let help = format!("let one follow the other: say `bytes: Like(\"{}\")` of `{}`", from.name, to.name);
             self.errors.push(Diagnostic::new(Code::BUFFER_SIZE_UNFIT, target.span, message).help(help));
         }
@@ -156,6 +167,13 @@ impl<'c, C: CheckContext> Check<'c, C> {
         }
     }
 
+    /// Reports, by `wrong`, texels that can't become those of the other side: their formats don't go together, or their planes differ.
+    fn same_planes(&mut self, [from, to]: [&Side<'_>; 2], go_together: bool, wrong: impl FnOnce() -> Diagnostic) {
+        if !go_together || from.part.aspects != to.part.aspects {
+            self.errors.push(wrong().remark(to.texels()).label(from.span, from.texels()));
+        }
+    }
+
     /// Texels have as many bytes, samples and planes, and lie in as large images. A program's samples may be resolved on the way.
     fn same_texels(&mut self, from: &Side<'_>, to: &Side<'_>) {
         let (one, other) = (from.image, to.image);
@@ -163,10 +181,9 @@ impl<'c, C: CheckContext> Check<'c, C> {
             let message = format!("`{}` can't be copied to `{}`: their {what} differ", one.name, other.name);
             Diagnostic::new(Code::COPY_UNFIT, to.span, message)
         };
-        if !one.format.copies_to(other.format) || from.part.aspects != to.part.aspects {
-            let wrong = differ("texels").remark(other.format.to_string()).label(from.span, one.format.to_string());
-            self.errors.push(wrong.help("a copy takes bits as they are: a blit or a draw converts"));
-        }
+        self.same_planes([from, to], one.format.copies_to(other.format), || {
+            differ("texels").help("a copy takes bits as they are: a blit or a draw converts")
+        });
         if one.samples != other.samples && (C::OF_FILE || other.samples > 1) {
             let declared = self.checked.span(Place::Image(from.index, Property::Samples));
             let wrong = differ("sample counts").remark(format!("{}× a texel", other.samples));
@@ -177,8 +194,9 @@ impl<'c, C: CheckContext> Check<'c, C> {
         }
     }
 
-    /// The texels of one plane lie in the buffer; a file's copy fills its target whole. A program's samples may be resolved on the way.
-    fn rows(&mut self, side: &Side<'_>, (here, buffer): (Span, BufferIndex), filled: bool) {
+    /// The texels of one plane lie in the buffer. A copy fills its target whole: a file's up to a multiple of 4 bytes, and a program's
+    /// may say that it keeps the rest. A program's samples may be resolved on the way.
+    fn rows(&mut self, side: &Side<'_>, (used, buffer): (&TransferUse, BufferIndex), filled: bool) {
         let Image { name, format, samples, .. } = side.image;
         if *samples > 1 && (C::OF_FILE || !filled) {
             let message = format!("`{name}` has {samples} samples, which a buffer can't take or give");
@@ -197,12 +215,12 @@ impl<'c, C: CheckContext> Check<'c, C> {
         let bytes = texels.saturating_mul(texel);
         let wanted = bytes.checked_next_multiple_of(4);
         let too_small = bytes > there.bytes;
-        let fits = if C::OF_FILE && filled { wanted == Some(there.bytes) } else { !too_small };
-        if fits {
+        let all = if C::OF_FILE { wanted == Some(there.bytes) } else { bytes == there.bytes || used.keeps };
+        if !too_small && (!filled || all) {
             return;
         }
         let message = format!("`{}` has {} bytes, but the texels of `{name}` take {bytes}", there.name, there.bytes);
-        let wrong = Diagnostic::new(Code::BUFFER_SIZE_UNFIT, here, message);
+        let wrong = Diagnostic::new(Code::BUFFER_SIZE_UNFIT, used.span, message);
         let wrong = wrong.remark(if too_small { "too small" } else { "only a part would be filled" });
         let wrong = wrong.label(there.span, "declared here");
         self.errors.push(match wanted.filter(|_| filled) {
@@ -229,12 +247,11 @@ impl<'c, C: CheckContext> Check<'c, C> {
         let (one, other) = (from.image, to.image);
         let format = one.format;
         let message = format!("`{}` can't be scaled into `{}`", one.name, other.name);
-        if !format.blits_to(other.format) {
-            let wrong = Diagnostic::new(Code::BLIT_UNFIT, to.span, &*message).remark(other.format.to_string());
-            self.errors.push(wrong.label(from.span, format.to_string()).help(
-                "unsigned integers go to unsigned ones, signed ones to signed ones, and depth to the same format",
-            ));
-        }
+        self.same_planes([&from, &to], format.blits_to(other.format), || {
+            let depth = "and depth to the same planes of the same format";
+            let help = format!("unsigned integers go to unsigned ones, signed ones to signed ones, {depth}");
+            Diagnostic::new(Code::BLIT_UNFIT, to.span, &*message).help(help)
+        });
         if filter == Filter::Linear && (format.is_integer() || format.is_depth()) {
             let held = if format.is_integer() { "integers" } else { "depth" };
             let why = format!("`{}` holds {held} ({format})", one.name);

@@ -120,7 +120,7 @@ pub(super) fn output(plan: &Plan, output: &Output) -> String {
 }
 
 pub(super) fn note(note: &Note) -> String {
-    format!("{} `{}`: {}{}", name_of(&note.stage), ShownText(&note.subject), ShownText(&note.text), place(&note.at))
+    format!("{} `{}`: {}{}", name_of(&note.stage()), ShownText(&note.subject), ShownText(&note.text), place(&note.at))
 }
 
 pub(super) fn totals(totals: &Totals) -> Outline {

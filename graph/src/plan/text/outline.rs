@@ -25,7 +25,7 @@ pub struct Outline {
 }
 
 impl Outline {
-    /// A line that says something beside the one that it stands under, with others under it.
+    /// A detail of the line that it stands under, with lines of its own.
     #[must_use]
     pub fn new(text: impl Into<String>, parts: Vec<Outline>) -> Outline {
         Outline::of(EntryKind::Detail, text, parts)

@@ -93,7 +93,7 @@ impl<'p> Text<'p> {
         self.plan.entries().filter(|entry| entry.kind() == kind).map(|entry| self.line(entry)).collect()
     }
 
-    /// These lines under a heading. Where nothing of a kind is there that each Plan has, the heading says so.
+    /// The lines of a kind under its heading; `None` if there are none. Images and outputs have their heading all the same.
     fn list(&self, kind: EntryKind) -> Option<Outline> {
         let lines = self.lines(kind);
         let always = matches!(kind, EntryKind::Image | EntryKind::Output);
@@ -145,9 +145,8 @@ impl<'p> Text<'p> {
             }
             Work::Export => "images change their layouts before several queues read them".to_owned(),
         };
-        let mut parts: Vec<Outline> = entry.parts().map(|part| self.line(part)).collect();
-        let releases = parts.len() - step.releases.len();
-        parts.splice(releases..releases, self.about_transfer(&step.work));
+        let mut parts = self.about_transfer(&step.work);
+        parts.extend(entry.parts().map(|part| self.line(part)));
         if self.detail.verbose {
             parts.extend(self.cost(std::slice::from_ref(step), self.plan.moved_by(step)));
         }
@@ -202,11 +201,7 @@ impl<'p> Text<'p> {
     }
 
     fn attachment(&self, location: usize, attachment: &Attachment) -> String {
-        let used_as = match attachment.kind {
-            AttachmentKind::Color => format!("color {location}"),
-            AttachmentKind::Depth => "depth".to_owned(),
-            AttachmentKind::Stencil => "stencil".to_owned(),
-        };
+        let used_as = attachment.kind.words(location);
         let clear = match (attachment.clear, attachment.kind) {
             (Some([red, green, blue, alpha]), AttachmentKind::Color) => format!(" ({red}, {green}, {blue}, {alpha})"),
             (Some([value, ..]), AttachmentKind::Depth | AttachmentKind::Stencil) => format!(" {value}"),

@@ -95,6 +95,7 @@ fn a_full_screen_draw_covers_unless_its_shader_may_leave_texels_or_the_file_prom
             let [scope] = &scopes[..] else { panic!("{}", plan.tree()) };
             let attachment = &scope.attachments[0];
             assert_eq!(attachment.load, if covers { LoadOp::DontCare } else { LoadOp::Load }, "{shader}{promise}");
+            assert_eq!(scope.passes[0].is_taken_to_cover(scope), covers, "{shader}{promise}");
             if !covers {
                 let expected = format!(
                     "`second` may leave texels as they were: {why}; `covers: true` promises that it sets them all; "
@@ -106,11 +107,42 @@ fn a_full_screen_draw_covers_unless_its_shader_may_leave_texels_or_the_file_prom
     }
 }
 
+/// A plane is loaded because of the shader only where the draw would replace it otherwise.
+#[test]
+fn a_plane_that_a_draw_would_set_but_for_its_shader_says_so() {
+    let stencil_of = |depth: &str| {
+        let text = format!(
+            r#"Pipeline(version: 1,
+                images: [(name: "both", format: DepthStencil, size: Output), (name: "screen", format: Output, size: Output)],
+                passes: [(name: "before", fill: (to: "both", value: (0.0, 0))),
+                         (name: "holes", draw: FullScreen("holes"), color: [(image: "screen", clear: (0.0, 0.0, 0.0, 0.0))],
+                             depth: (image: "both", test: Always, {depth})),
+                         (name: "sky", draw: Sky, color: ["screen"], depth: (image: "both", write: false, stencil: (test: Equal)))],
+                outputs: ["screen"])"#
+        );
+        let frame = frame(&text, &INPUTS).unwrap_or_else(|answer| panic!("{answer}"));
+        let plan = on(&frame, &shipped("amd-rx-7800-xt")).expect("a Plan");
+        let mut scopes = plan.steps.iter().filter_map(|step| step.work.scope());
+        let stencil = scopes.find_map(|scope| scope.stencil()).expect("it is attached");
+        assert_eq!(stencil.load, LoadOp::Load, "{}", plan.tree());
+        stencil.because.to_string()
+    };
+    let told = "`holes` may leave texels as they were: shader `holes` discards fragments";
+    let because = stencil_of("write: false, stencil: (pass: Replace)");
+    assert!(because.starts_with(told), "{because}");
+    let because = stencil_of("stencil: (pass: IncrementAndClamp)");
+    assert!(!because.contains("may leave"), "{because}");
+}
+
 #[test]
 fn any_draw_into_one_layer_covers_that_is_promised_to_but_blending_reads_all_the_same() {
     let covers = |fields: &str| {
         let plan = after_a_fill(&format!(r#"draw: Objects(Opaque), shader: "lit", covers: true, {fields}"#));
-        !runs(&plan, "before")
+        let covers = !runs(&plan, "before");
+        let mut scopes = plan.steps.iter().filter_map(|step| step.work.scope());
+        let drawn = scopes.find(|scope| &*scope.passes[0].name == "second").expect("it draws");
+        assert_eq!(drawn.passes[0].is_taken_to_cover(drawn), covers, "{fields}");
+        covers
     };
     assert!(covers(r#"color: ["color"]"#));
     assert!(!covers(r#"color: [(image: "color", blend: Alpha)]"#));

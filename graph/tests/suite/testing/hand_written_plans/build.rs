@@ -286,7 +286,6 @@ pub(crate) fn plan(images: Vec<Image>, heap_bytes: u64, steps: Vec<Step>) -> Pla
         outputs,
         notes: vec![Note {
             kind: NoteKind::OwnScope,
-            stage: Stage::Scope,
             subject: "tonemap".into(),
             text: "begins a scope of its own: it samples what the scope before it writes".to_owned(),
             at: Some(Place { file: "pipeline.ron".into(), line: 40, column: 9 }),

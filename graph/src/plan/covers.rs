@@ -1,0 +1,30 @@
+//! Which passes a Plan takes to replace what they draw into: what was there isn't loaded, or never was.
+//!
+//! `verify` asks the same by rules of its own.
+
+use super::{Attachment, Pass, RenderScope};
+use crate::frame::{Blend, Draw};
+use crate::vulkan::{CompareOp, StencilOp};
+
+impl Pass {
+    /// Whether a Plan takes the pass to set every texel of an attachment of `scope`, which is its own. Whoever has its shader must see that
+    /// the shader leaves nothing out.
+    #[must_use]
+    pub fn is_taken_to_cover(&self, scope: &RenderScope) -> bool {
+        let untested = self.depth.is_none_or(|depth| depth.test == CompareOp::Always)
+            && self.stencil.is_none_or(|stencil| stencil.test == CompareOp::Always);
+        let leaves_out = self.discards || self.alpha_to_coverage || self.untouched.is_some();
+        let fills = untested && !leaves_out && self.draw.is_some_and(Draw::is_full_screen);
+        let draws_into = |target: &Attachment| {
+            let to = (target.image, target.range);
+            self.accesses.iter().any(|access| access.binding.is_none() && (access.image, access.range) == to)
+        };
+        let mut colors = scope.color().iter().zip(&self.blend);
+        let deep = self.depth.is_some_and(|depth| depth.write);
+        let marks = self.stencil.is_some_and(|it| matches!(it.pass, StencilOp::Zero | StencilOp::Replace));
+        scope.layers == 1
+            && (self.covers || fills)
+            && (untested && (deep || marks)
+                || colors.any(|(target, blend)| *blend == Blend::Replace && draws_into(target)))
+    }
+}
