@@ -21,12 +21,12 @@ fn a_breach_names_the_bound_the_step_that_breaks_it_and_the_limit() {
     let place = place(BUDGET);
     let err = place.run(&CHECK).exits(1).err;
     assert!(
-        err.contains("the budget is exceeded: resolves 1, and at most 0 are allowed\n  --> first.ron:27:32"),
+        err.contains("the budget is exceeded: resolves 1, and at most 0 are allowed [E1503]\n  --> first.ron:27:32"),
         "{err}"
     );
     assert!(err.contains("in step 0, `resolve color`: `tone_map` samples `color` and it has 4 samples"), "{err}");
     assert!(
-        err.contains("transient memory 49.22 MiB, and at most 40.00 MiB are allowed\n  --> first.ron:19:16"),
+        err.contains("transient memory 49.22 MiB, and at most 40.00 MiB are allowed [E1503]\n  --> first.ron:19:16"),
         "{err}"
     );
     assert!(err.contains("::: budget.ron:2:5"), "{err}");

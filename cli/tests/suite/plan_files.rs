@@ -163,7 +163,7 @@ fn a_text_that_is_no_plan_or_a_wrong_one_is_refused() {
     bench.changed(version, "\"format_version\": 13");
     assert_eq!(
         bench.refused().trim_end(),
-        "error: changed.json: the Plan has format version 13, this program reads version 14: compile it again"
+        "error: changed.json: the Plan has format version 13, this program reads version 14: compile it again [E1608]"
     );
     bench.changed("\"layers\": 1", "\"layers\": 1000000000");
     assert!(bench.refused().contains("has no images like `color`"), "{}", bench.refused());

@@ -382,7 +382,7 @@ pub(crate) fn lacks(server: &[(&str, String)], libraries: &[&str], said: &str) {
     let mut command = place.command(&words);
     command.env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env("LD_LIBRARY_PATH", place.path("missing"));
     let told = outcome(command.envs(server.iter().cloned())).exits(3);
-    let expected = format!("error: no window can be opened: a library is missing, which Debian has in {said}");
+    let expected = format!("error: no window can be opened: a library is missing, which Debian has in {said} [E1305]");
     assert_eq!(told.err.lines().next(), Some(&*expected), "{libraries:?}: {}", told.err);
     assert!(!told.err.contains("panicked"), "{libraries:?}: {}", told.err);
 }

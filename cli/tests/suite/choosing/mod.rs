@@ -249,7 +249,7 @@ fn flicker_is_limited_where_it_was_measured() {
     let limit = [Limit { option: "--max-flicker", value: 0.02 }];
     write(&place, ".", &results(vec![row("1", 1.0).value()]));
     let err = choose(&place, &limit, &[]).exits(1).err;
-    assert!(err.contains("have no flicker, which `--max-flicker` limits\nhelp: measure it: "), "{err}");
+    assert!(err.contains("have no flicker, which `--max-flicker` limits [E1611]\nhelp: measure it: "), "{err}");
     let rows = [row("1", 1.0).flicker(0.05, 0), row("2", 2.0).flicker(0.01, 3), row("4", 3.0).flicker(0.015, 0)];
     let mut measured = results(rows.map(Row::value).into());
     measured["subject"]["flicker_frames"] = json!(16);

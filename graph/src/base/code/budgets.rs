@@ -10,7 +10,8 @@ room! {
 
     /// A limit of a budget bounds nothing, or can't be held.
     ///
-    /// A limit has a bound at least, and each bound is a finite number that isn't negative. Settings have numbers, texts, true or false.
+    /// A limit has a bound at least, and each bound is a finite number that isn't negative. Settings have numbers, texts, true or
+    /// false.
     BUDGET_LIMIT = 1502,
 
     /// The budget is exceeded.

@@ -25,7 +25,8 @@ room! {
 
     /// A device profile can't be used.
     ///
-    /// No profile has that name, its file is wrong, or a profile stands where a device is needed. `framewright devices` lists devices.
+    /// No profile has that name, its file is wrong, or a profile stands where a device is needed. `framewright devices` lists
+    /// devices.
     DEVICE_PROFILE = 1605,
 
     /// Options contradict each other, or what they are for.
@@ -40,7 +41,8 @@ room! {
 
     /// A file is no Plan that can be used.
     ///
-    /// The message says which rule it breaks. `framewright run … --save-plan` and `framewright inspect … --format json` write Plans.
+    /// The message says which rule it breaks. `framewright run … --save-plan` and `framewright inspect … --format json` write
+    /// Plans.
     NO_PLAN = 1608,
 
     /// There is nothing of that name to explain.
@@ -70,7 +72,8 @@ room! {
 
     /// The sweep can't be measured.
     ///
-    /// A sweep names settings with values that the pipeline allows, and as many choices as can be measured. The message says what is wrong.
+    /// A sweep names settings with values that the pipeline allows, and as many choices as can be measured. The message says what
+    /// is wrong.
     SWEEP = 1614,
 
     /// Two pictures can't be compared.

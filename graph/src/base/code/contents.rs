@@ -5,13 +5,14 @@ room! {
 
     /// Something is read or leaves the frame, and no pass writes it.
     ///
-    /// Its contents would be undefined. Let a pass write it, or don't use it. If an extension removed the pass, that place is shown.
+    /// Its contents would be undefined. Let a pass write it, or don't use it. If an extension removed the pass, that place is
+    /// shown.
     NEVER_WRITTEN = 901,
 
     /// Something is needed, and the pass that fills it is off.
     ///
-    /// With these settings `when` of that pass is false. Say what takes its place, `otherwise: Clear(image: "…", value: 0)`, or give the
-    /// reader the same `when`.
+    /// With these settings `when` of that pass is false. Say what takes its place, `otherwise: Clear(image: "…", value: 0)`, or
+    /// give the reader the same `when`.
     WRITER_IS_OFF = 902,
 
     /// An earlier frame's contents are read, and no pass writes them.
@@ -21,8 +22,8 @@ room! {
 
     /// Something is read before it is written.
     ///
-    /// Passes run in the order of the file, and a pass reads what passes above it wrote. Move the reader down, or read what the frame
-    /// before left: `(image: "…", previous: 1)`.
+    /// Passes run in the order of the file, and a pass reads what passes above it wrote. Move the reader down, or read what the
+    /// frame before left: `(image: "…", previous: 1)`.
     READ_BEFORE_WRITTEN = 904,
 
     /// What is handed in without contents is read.
@@ -48,7 +49,7 @@ room! {
 
     /// A pass samples the depth that it also writes.
     ///
-    /// What a sample reads would depend on the order of fragments. Test without writing, `depth: (image: "…", write: false)`, or sample a
-    /// copy.
+    /// What a sample reads would depend on the order of fragments. Test without writing, `depth: (image: "…", write: false)`, or
+    /// sample a copy.
     DEPTH_FEEDBACK = 909,
 }

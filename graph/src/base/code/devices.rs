@@ -5,8 +5,8 @@ room! {
 
     /// The device lacks what a shader needs.
     ///
-    /// The shader uses a feature, or more of something, than the device has. `framewright devices` tells what a device has; a `when` that
-    /// asks `device` lets a pass run only where it can.
+    /// The shader uses a feature, or more of something, than the device has. `framewright devices` tells what a device has; a
+    /// `when` that asks `device` lets a pass run only where it can.
     SHADER_NEEDS = 1101,
 
     /// The device lacks a feature that a state needs.
@@ -31,7 +31,8 @@ room! {
 
     /// The device can't use a format as the frame does.
     ///
-    /// Each format serves some uses on a device: being sampled, drawn into, stored into, copied. The help names formats that would do.
+    /// Each format serves some uses on a device: being sampled, drawn into, stored into, copied. The help names formats that
+    /// would do.
     FORMAT_UNSUPPORTED = 1106,
 
     /// The device can't filter or blend a format.
@@ -46,8 +47,8 @@ room! {
 
     /// Samples can't be resolved.
     ///
-    /// What has several samples is resolved before it is sampled. That can't be done with stencil, with an image of several layers, and with
-    /// what an earlier frame left. The help says what can be done in place of it.
+    /// What has several samples is resolved before it is sampled. That can't be done with stencil, with an image of several
+    /// layers, and with what an earlier frame left. The help says what can be done in place of it.
     RESOLVE_IMPOSSIBLE = 1109,
 
     /// One image can't take another's place.

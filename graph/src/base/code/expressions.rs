@@ -28,7 +28,8 @@ room! {
 
     /// A value has another type than the one that is needed.
     ///
-    /// Types are whole numbers, numbers, texts, truths, images, buffers and formats. Only whole numbers become numbers by themselves.
+    /// Types are whole numbers, numbers, texts, truths, images, buffers and formats. Only whole numbers become numbers by
+    /// themselves.
     /// Wrong: `when: "levels"`.
     /// Mended: `when: "levels > 0"`.
     WRONG_TYPE = 305,

@@ -5,8 +5,8 @@ room! {
 
     /// A file that another names can't be read.
     ///
-    /// Paths are relative to the file that names them, and then to what is shipped with the program. The message says whether the file
-    /// is missing, is no file, or may not be read.
+    /// Paths are relative to the file that names them, and then to what is shipped with the program. The message says whether the
+    /// file is missing, is no file, or may not be read.
     FILE_NAMED_UNREAD = 501,
 
     /// A file lies outside of the folder that may be read.
@@ -65,8 +65,8 @@ room! {
 
     /// The pipeline makes too many things.
     ///
-    /// `repeat` and fragments within fragments multiply. The number of images, buffers, passes and uses is bounded, so that a mistake in
-    /// one count can't take all memory.
+    /// `repeat` and fragments within fragments multiply. The number of images, buffers, passes and uses is bounded, so that a
+    /// mistake in one count can't take all memory.
     TOO_MANY_THINGS = 512,
 
     /// Images, buffers or lifetimes follow each other in a circle.

@@ -36,8 +36,8 @@ room! {
 
     /// An image that holds both eyes' parts is used for one of them.
     ///
-    /// Such an image has layers or halves for the eyes, as the frame's way of drawing for two eyes needs them. It is drawn, sampled and
-    /// copied for both at once, and is flat, with one mip level.
+    /// Such an image has layers or halves for the eyes, as the frame's way of drawing for two eyes needs them. It is drawn,
+    /// sampled and copied for both at once, and is flat, with one mip level.
     BOTH_EYES = 1207,
 
     /// A frame says of an image that it is turned.

@@ -16,8 +16,8 @@ room! {
 
     /// An image that changes its size is used as none can be.
     ///
-    /// Such an image (`Dynamic(by: …, up_to: …)`) has room for its largest size, lives for one frame, is flat, has one mip level, and
-    /// doesn't leave the frame. Scale it into an image of a fixed size, and go on with that.
+    /// Such an image (`Dynamic(by: …, up_to: …)`) has room for its largest size, lives for one frame, is flat, has one mip level,
+    /// and doesn't leave the frame. Scale it into an image of a fixed size, and go on with that.
     DYNAMIC_SIZE = 603,
 
     /// The sample count can't be one.
@@ -43,8 +43,8 @@ room! {
 
     /// The image can't be resolved in that way.
     ///
-    /// Colour is averaged or weighted, integers take the first sample, and depth takes one sample, the least, the greatest or the average.
-    /// The help names the ways that its format has.
+    /// Colour is averaged or weighted, integers take the first sample, and depth takes one sample, the least, the greatest or the
+    /// average. The help names the ways that its format has.
     RESOLVE_UNFIT = 608,
 
     /// A texture's file can't be used.
@@ -77,8 +77,8 @@ room! {
 
     /// The value is none that the format holds.
     ///
-    /// Images and buffers are cleared and filled with what their format can hold: floating-point numbers, integers that fit into its
-    /// bits, or depth from 0 (infinitely far) to 1 (nearest).
+    /// Images and buffers are cleared and filled with what their format can hold: floating-point numbers, integers that fit into
+    /// its bits, or depth from 0 (infinitely far) to 1 (nearest).
     FILL_UNFIT = 614,
 
     /// An image or buffer can't be in that state.
@@ -104,13 +104,14 @@ room! {
 
     /// An earlier frame's contents are used in another way than being read.
     ///
-    /// What an earlier frame left is sampled, copied from or read as a buffer. It is never written, as each frame writes what has history
-    /// anew, and never bound as a storage image.
+    /// What an earlier frame left is sampled, copied from or read as a buffer. It is never written, as each frame writes what has
+    /// history anew, and never bound as a storage image.
     EARLIER_FRAME = 619,
 
     /// An image that comes from a file is used in another way than being sampled.
     ///
-    /// A texture is filled once, when the pipeline is loaded, and no pass makes it. The shader `copy` draws it into an image of your own.
+    /// A texture is filled once, when the pipeline is loaded, and no pass makes it. The shader `copy` draws it into an image of
+    /// your own.
     TEXTURE_WRITTEN = 620,
 
     /// The output can't leave the frame in that encoding.

@@ -26,8 +26,8 @@ room! {
 
     /// No window can be opened.
     ///
-    /// `DISPLAY` or `WAYLAND_DISPLAY` names the screen, and libraries of the window system are needed. `xvfb-run` shows windows to nobody,
-    /// and `framewright run` writes pictures without any.
+    /// `DISPLAY` or `WAYLAND_DISPLAY` names the screen, and libraries of the window system are needed. `xvfb-run` shows windows
+    /// to nobody, and `framewright run` writes pictures without any.
     NO_WINDOW = 1305,
 
     /// The port can't be used.
@@ -37,16 +37,19 @@ room! {
 
     /// The program can't start itself anew.
     ///
-    /// It starts itself for shaders, which are compiled in a process of their own, and under a validation layer that it brings along.
+    /// It starts itself for shaders, which are compiled in a process of their own, and under a validation layer that it brings
+    /// along.
     OWN_PROCESS = 1307,
 
     /// The validation layer is missing, or would say nothing.
     ///
-    /// A mistake is planted first, to see that the layer tells of it. Settings of the layer may keep it silent: the message names them.
+    /// A mistake is planted first, to see that the layer tells of it. Settings of the layer may keep it silent: the message names
+    /// them.
     VALIDATION_LAYER = 1308,
 
     /// The program that draws the frame does something wrong.
     ///
-    /// It records draws for a pass, imports images and brings along vertices. The message says what it misuses, or has its own words.
+    /// It records draws for a pass, imports images and brings along vertices. The message says what it misuses, or has its own
+    /// words.
     DRAWING_PROGRAM = 1309,
 }

@@ -5,8 +5,8 @@ room! {
 
     /// The pass does nothing.
     ///
-    /// A pass has one of `draw`, `dispatch`, `copy`, `blit`, `fill` and `custom`, and writes something. If its effect isn't in the frame,
-    /// `side_effect: true` says so.
+    /// A pass has one of `draw`, `dispatch`, `copy`, `blit`, `fill` and `custom`, and writes something. If its effect isn't in
+    /// the frame, `side_effect: true` says so.
     /// Wrong: `(name: "sky", draw: FullScreen("sky"))`.
     /// Mended: `(name: "sky", draw: FullScreen("sky"), color: ["color"])`.
     PASS_DOES_NOTHING = 701,
@@ -39,7 +39,8 @@ room! {
 
     /// The targets of a pass differ.
     ///
-    /// One draw covers all targets: they have one size, one sample count and as many layers. `Like("other")` lets one follow the other.
+    /// One draw covers all targets: they have one size, one sample count and as many layers. `Like("other")` lets one follow the
+    /// other.
     TARGETS_DIFFER = 707,
 
     /// The image can't be such a target.
@@ -70,8 +71,8 @@ room! {
 
     /// The blit can't be made.
     ///
-    /// A blit scales images with one sample, between formats of one kind, and depth only into the same format. A draw does the rest:
-    /// `draw: FullScreen("copy")`.
+    /// A blit scales images with one sample, between formats of one kind, and depth only into the same format. A draw does the
+    /// rest: `draw: FullScreen("copy")`.
     BLIT_UNFIT = 713,
 
     /// Something is copied or scaled onto itself.
@@ -98,8 +99,8 @@ room! {
 
     /// The cascades of a view don't go together.
     ///
-    /// The passes that draw a view's shadows are of one number of cascades and one reach. Each draws its own number, into the layer of that
-    /// number of one image, and none is missing: `repeat` a pass as often as there are.
+    /// The passes that draw a view's shadows are of one number of cascades and one reach. Each draws its own number, into the
+    /// layer of that number of one image, and none is missing: `repeat` a pass as often as there are.
     CASCADES = 718,
 
     /// A pass uses one thing in two ways at once.

@@ -5,9 +5,9 @@ room! {
 
     /// The file is empty.
     ///
-    /// The file holds nothing, or only blanks and comments, so there is no value to read.
-    /// A pipeline begins with `Pipeline(version: 1,`, a scene with `Scene(version: 1,`, a settings file with `Settings(version: 1,`.
-    /// An editor that saves in two steps may leave a file empty for a moment.
+    /// The file holds nothing, or only blanks and comments, so there is no value to read. A pipeline begins with
+    /// `Pipeline(version: 1,`, a scene with `Scene(version: 1,`, a settings file with `Settings(version: 1,`. An editor that
+    /// saves in two steps may leave a file empty for a moment.
     FILE_EMPTY = 101,
 
     /// The file is not text.
@@ -25,8 +25,8 @@ room! {
 
     /// A bracket, text or comment has no end.
     ///
-    /// What is opened by `(`, `[`, `{`, `"`, `'` or `/*` must be closed. The place that opened it is shown: the mistake is often there,
-    /// far above the end of the file.
+    /// What is opened by `(`, `[`, `{`, `"`, `'` or `/*` must be closed. The place that opened it is shown: the mistake is often
+    /// there, far above the end of the file.
     /// Wrong: `(name: "sky, draw: Opaque)`.
     /// Mended: `(name: "sky", draw: Opaque)`.
     NOT_CLOSED = 104,
@@ -97,8 +97,8 @@ room! {
 
     /// The file is of a version that this program doesn't read.
     ///
-    /// `version` says how the file is to be understood. A newer version may mean something else by the same words, so it is refused.
-    /// Take a newer program, or write the version that the help names.
+    /// `version` says how the file is to be understood. A newer version may mean something else by the same words, so it is
+    /// refused. Take a newer program, or write the version that the help names.
     VERSION = 115,
 
     /// A value has no form in JSON.

@@ -10,8 +10,8 @@ room! {
 
     /// The camera of a scene can't see.
     ///
-    /// A camera has a direction: its target isn't where it stands, and up isn't along it. The far distance is greater than the near one. A
-    /// scene without objects says where its camera is.
+    /// A camera has a direction: its target isn't where it stands, and up isn't along it. The far distance is greater than the
+    /// near one. A scene without objects says where its camera is.
     SCENE_CAMERA = 1402,
 
     /// A direction, colour or material of a scene is none.

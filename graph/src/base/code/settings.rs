@@ -5,7 +5,8 @@ room! {
 
     /// The value is none that the setting or parameter allows.
     ///
-    /// A setting declares which values it has: true and false, a range with steps, or a list. The help says which, or names the nearest.
+    /// A setting declares which values it has: true and false, a range with steps, or a list. The help says which, or names the
+    /// nearest.
     /// Wrong: `--set msaa=3`, with `of: [1, 2, 4, 8]`.
     /// Mended: `--set msaa=4`.
     VALUE_NOT_ALLOWED = 401,

@@ -5,12 +5,14 @@ room! {
 
     /// There is no shader of that name.
     ///
-    /// The help says where it was looked for: beside the pipeline, in the folders that were named, and among those that are shipped.
+    /// The help says where it was looked for: beside the pipeline, in the folders that were named, and among those that are
+    /// shipped.
     UNKNOWN_SHADER = 801,
 
     /// The shader doesn't compile.
     ///
-    /// The compiler's complaints are shown with the lines that they are about, or the bound of time, memory or stack that it reached.
+    /// The compiler's complaints are shown with the lines that they are about, or the bound of time, memory or stack that it
+    /// reached.
     SHADER_BROKEN = 802,
 
     /// The shader can't be used.
@@ -20,12 +22,14 @@ room! {
 
     /// The shader has nothing of that name.
     ///
-    /// Names in `sample`, `storage` and `uniform` are those that the shader declares, in the pass's own set. The help names the nearest.
+    /// Names in `sample`, `storage` and `uniform` are those that the shader declares, in the pass's own set. The help names the
+    /// nearest.
     UNKNOWN_BINDING = 804,
 
     /// The shader uses something that the pass doesn't give.
     ///
-    /// Each image and buffer that the shader declares in the pass's own set gets one of the pipeline's: `sample: {"source": "color"}`.
+    /// Each image and buffer that the shader declares in the pass's own set gets one of the pipeline's:
+    /// `sample: {"source": "color"}`.
     BINDING_MISSING = 805,
 
     /// The elements of an array are given otherwise than the shader declares them.
@@ -78,7 +82,8 @@ room! {
 
     /// An image can't be stored into by a shader, or not like this.
     ///
-    /// Shaders store into images with one sample, of formats other than depth and sRGB, and the format in `layout(…)` is the image's own.
+    /// Shaders store into images with one sample, of formats other than depth and sRGB, and the format in `layout(…)` is the
+    /// image's own.
     STORAGE_IMAGE = 815,
 
     /// Pass and shader disagree on reading and writing.
@@ -88,14 +93,14 @@ room! {
 
     /// A shader doesn't ask which part of an image is in use.
     ///
-    /// Of an image that changes its size a part is used, and beyond it there is nothing. `include/part.glsl` has `uv_adjust`, which looks
-    /// up within the part.
+    /// Of an image that changes its size a part is used, and beyond it there is nothing. `include/part.glsl` has `uv_adjust`,
+    /// which looks up within the part.
     PART_NOT_ASKED = 817,
 
     /// An image can't be read at the fragment's own position.
     ///
-    /// `own_pixel` is for draws, and for images of the size of what is drawn into: one level and one layer, declared `subpassInput` where
-    /// the device has local reads. Leave it out elsewhere.
+    /// `own_pixel` is for draws, and for images of the size of what is drawn into: one level and one layer, declared
+    /// `subpassInput` where the device has local reads. Leave it out elsewhere.
     OWN_PIXEL = 818,
 
     /// The shader has no output for a target, or one with too few components.
@@ -120,8 +125,8 @@ room! {
 
     /// The shader uses something that the draw source doesn't bring along.
     ///
-    /// What isn't in the pass's own set comes from the program that draws: cameras, lights, textures of a scene. Set, binding and kind
-    /// are those that it declares; `framewright facts` and an interface file (`--interface`) tell them.
+    /// What isn't in the pass's own set comes from the program that draws: cameras, lights, textures of a scene. Set, binding and
+    /// kind are those that it declares; `framewright facts` and an interface file (`--interface`) tell them.
     DRAW_SOURCE_LACKS = 823,
 
     /// Nobody records the custom pass.
@@ -131,7 +136,7 @@ room! {
 
     /// An interface file contradicts itself.
     ///
-    /// It tells what a program brings along for its draws: for each kind of draw once, at places of their own, and without vertices for
-    /// dispatches.
+    /// It tells what a program brings along for its draws: for each kind of draw once, at places of their own, and without
+    /// vertices for dispatches.
     INTERFACE_FILE = 825,
 }

@@ -16,7 +16,8 @@ room! {
 
     /// It isn't said which eye's image is read.
     ///
-    /// The pass runs once, and each eye has an image of its own. Read one eye's: `Eye(Left, "…")`, or let the pass run for each eye.
+    /// The pass runs once, and each eye has an image of its own. Read one eye's: `Eye(Left, "…")`, or let the pass run for each
+    /// eye.
     EYE_UNSAID = 1003,
 
     /// The shader doesn't ask for its eye's half.
@@ -42,8 +43,8 @@ room! {
 
     /// An output can't leave the frame rotated.
     ///
-    /// A rotated output is drawn turned, with all that is drawn together with it. What is handed in with contents, is a buffer, or is drawn
-    /// beside images that stay upright can't be. Draw into an image of its own, and from that into the output.
+    /// A rotated output is drawn turned, with all that is drawn together with it. What is handed in with contents, is a buffer,
+    /// or is drawn beside images that stay upright can't be. Draw into an image of its own, and from that into the output.
     ROTATION_UNFIT = 1008,
 
     /// A shader would see that its target is turned.
