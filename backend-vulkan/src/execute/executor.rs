@@ -160,7 +160,8 @@ impl Executor {
     ///
     /// # Safety
     /// The semaphores must be of this executor's device, be in the state that Vulkan demands of what is waited for or signalled,
-    /// and live until the frame was waited for. The images must be in the state `before` of [`Executor::external_states`] when
+    /// and live until the frame was waited for. The stages of a wait must hold the first stage in which the frame uses what is waited
+    /// for: the first barrier of an image that comes as `Present` waits there, and `ALL_COMMANDS` always fits. The images must be in the state `before` of [`Executor::external_states`] when
     /// the waits are over. After the frame they are in the state `after`.
     pub unsafe fn submit_with(&mut self, source: &mut dyn DrawSource, among: &Submission<'_>) -> Result<u64, Error> {
         let number = self.next_frame(among.images)?;

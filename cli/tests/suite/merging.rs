@@ -236,7 +236,7 @@ fn damaged_results_are_refused_with_their_place() {
         (whole.replacen("\"ssim\": 1.0", "\"ssim\": 1.25", 1), "`errors.ssim` can't be 1.25"),
         (whole.replacen("\"rmse\": 0.0", "\"rmse\": 5.0", 1), "`errors.rmse` can't be 5"),
         (whole.replacen("\"psnr\": 30.0", "\"psnr\": -3000.0", 1), "`errors.psnr` can't be -3000"),
-        (whole.replacen("\"frames\": 16", "\"frames\": 0", 1), "`frames` is 0"),
+        (whole.replacen("\"frames\": 16", "\"frames\": 0", 1), "`frames` can't be 0"),
         (whole.replacen("64", "0", 1), "the size 0x64 is none"),
         (too_many, "can't be 9000 of 8192 pixels"),
     ] {

@@ -69,8 +69,10 @@ fn mistakes_in_a_scene_are_notes_and_with_strict_an_error_in_every_command_that_
             assert!(outcome.err.contains(&format!("note: wrong.gltf: {mistake}\n")), "{command:?}: {}", outcome.err);
         }
         let outcome = place.run(&[command, &["--strict"]].concat()).exits(1);
-        let said =
-            format!("error: `wrong.gltf` has mistakes, and `--strict` passes over none:\n  {}", MISTAKES.join("\n  "));
+        let said = format!(
+            "error: `wrong.gltf` has mistakes, and `--strict` passes over none: [E1404]\n  {}",
+            MISTAKES.join("\n  ")
+        );
         assert!(outcome.err.contains(&said), "{command:?}: {}", outcome.err);
     }
     // What is right and isn't drawn is no mistake.
@@ -86,7 +88,8 @@ fn with_strict_a_scene_with_mistakes_is_neither_drawn_nor_measured_nor_shown() {
     let place = place();
     with_mistakes(&place);
     let scene = ["forward", "--scene", "wrong.gltf", "--size", "16x16"];
-    let said = format!("`wrong.gltf` has mistakes, and `--strict` passes over none:\n  {}", MISTAKES.join("\n  "));
+    let said =
+        format!("`wrong.gltf` has mistakes, and `--strict` passes over none: [E1404]\n  {}", MISTAKES.join("\n  "));
     for (command, made) in [("run", "made.png"), ("measure", "made")] {
         let further: &[&str] =
             if command == "run" { &[] } else { &["--frames", "1", "--sweep", "msaa=1", "--reference", "none"] };

@@ -6,7 +6,8 @@ use crate::vulkan::FillValue;
 
 impl Plan {
     /// The Plan without values and without explanations. If it is equal for two Plans, each can be executed with the memory, images,
-    /// buffers and shaders of the other. This is the one rule of what a mere value is.
+    /// buffers and shaders of the other. This is the one rule of what a mere value is for
+    /// an executor. What is compiled anew is a rule of the compiler.
     ///
     /// Values are settings, parameters, clear and fill values, counts of workgroups, shifts of views, and the parts of images that
     /// are in use.

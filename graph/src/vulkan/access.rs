@@ -216,6 +216,7 @@ const ROWS: &[AccessRow] = &[
         buffer: Some(BufferUsage::TRANSFER_DST),
         ..NONE
     },
+    // No pass accesses one: states of imports and outputs name it.
     AccessRow {
         kind: AccessKind::AccelerationStructure,
         stages: SHADERS.union(STRUCTURES),

@@ -304,6 +304,6 @@ fn colours_that_change_their_locations_are_told() {
         Change::Added { .. } | Change::Removed { .. } => vec![],
     });
     let [one, other] = [Some("color 0"), Some("color 1")];
-    let expected = [vec![("attached as", one, other)], vec![("attached as", other, one)]];
+    let expected = [vec![("attached as", other, one)], vec![("attached as", one, other)]];
     assert_eq!(told.collect::<Vec<Vec<_>>>(), expected, "{}", found.text());
 }

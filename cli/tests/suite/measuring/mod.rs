@@ -474,7 +474,10 @@ fn sweeps_that_say_nothing_are_refused_before_anything_is_drawn() {
     let many = ["render_scale=0.5..4:1000", "white_point=1..100:1000", "blur=0,1,2,3,4,5"];
     let many: Vec<&str> = many.iter().flat_map(|sweep| ["--sweep", sweep]).collect();
     let said = wrong(&many).err;
-    assert!(said.contains("has 6000000 choices, and at most 10000 are measured: sweep fewer values\n"), "{said}");
+    assert!(
+        said.contains("has 6000000 choices, and at most 10000 are measured: sweep fewer values [E1614]\n"),
+        "{said}"
+    );
     // Where pairs are few enough they are named.
     let many = ["render_scale=0.5..4:50", "white_point=1..100:50", "blur=0,1,2,3,4,5"];
     let many: Vec<&str> = many.iter().flat_map(|sweep| ["--sweep", sweep]).collect();

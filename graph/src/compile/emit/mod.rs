@@ -2,6 +2,7 @@
 
 mod attachments;
 mod barriers;
+mod header;
 mod notes;
 mod outputs;
 mod ownership;
@@ -10,7 +11,6 @@ mod plan;
 mod resources;
 mod revise;
 mod stage_results;
-mod values;
 
 pub(super) use plan::emit;
-pub(super) use revise::values;
+pub(super) use revise::put_in_values;

@@ -1,9 +1,9 @@
 //! A whole Plan.
 
 use super::barriers::StepBarriers;
+use super::header::{changes, settings, views, with_bytes};
 use super::ownership::Transfer;
 use super::stage_results::StageResults;
-use super::values::{changes, settings, views, with_bytes};
 use super::{attachments, notes, outputs, ownership, passes, resources};
 use crate::compile::scope::Step as Grouped;
 use crate::compile::stages::Decisions;

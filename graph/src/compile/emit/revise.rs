@@ -1,7 +1,7 @@
 //! Brings a Plan up to date where frames differ in values alone.
 
+use super::header::{settings, views};
 use super::stage_results::frame_work;
-use super::values::{settings, views};
 use crate::compile::model::OpKind;
 use crate::compile::stages::Decisions;
 use crate::frame::{Frame, Work as FrameWork};
@@ -9,7 +9,7 @@ use crate::plan::{Param, Pass, Plan, Work};
 use std::sync::Arc;
 
 /// Brings clear values, parameters, counts of workgroups and settings up to date.
-pub(in crate::compile) fn values(frame: &Frame, decisions: &Decisions, plan: &mut Plan) {
+pub(in crate::compile) fn put_in_values(frame: &Frame, decisions: &Decisions, plan: &mut Plan) {
     plan.settings = settings(frame);
     plan.decided = Arc::clone(&frame.decided);
     plan.views = views(frame);

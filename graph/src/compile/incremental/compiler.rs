@@ -150,6 +150,6 @@ impl LastFrame {
     fn put_in_values(&mut self, frame: &Frame) {
         let LastFrame { decisions, plan, .. } = self;
         retain::renew_clear_values(frame, &decisions.adapted, &mut decisions.load_store);
-        emit::values(frame, decisions, plan);
+        emit::put_in_values(frame, decisions, plan);
     }
 }

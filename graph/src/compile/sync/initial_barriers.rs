@@ -71,7 +71,7 @@ impl BarrierCompletion<'_> {
         for subresource in self.adapted.resources[resource as usize].subresources() {
             let known = &self.timeline.subresources[subresource as usize];
             let Some(barrier) = barriers.get_mut(known.first_barrier as usize) else { continue };
-            find(barrier, states, known.second_barrier == NEVER);
+            complete_from_state(barrier, states, known.second_barrier == NEVER);
             let is_needed = barrier.step != NEVER;
             // Without it, nothing else waits for earlier reads.
             if let Some(next) = barriers.get_mut(known.second_barrier as usize).filter(|_| !is_needed) {
@@ -230,7 +230,7 @@ fn find_last_accesses(
 }
 
 /// Completes the barrier before the first access to a resource that outlives frames. `is_last`: there is no other barrier.
-fn find(barrier: &mut SubresourceBarrier, States { before, after }: &States, is_last: bool) {
+fn complete_from_state(barrier: &mut SubresourceBarrier, States { before, after }: &States, is_last: bool) {
     let covers = before.layout == barrier.new_layout
         && before.stages.contains(barrier.dst_stages)
         && before.accesses.contains(barrier.dst_accesses);
