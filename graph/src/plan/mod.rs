@@ -34,7 +34,7 @@ use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 mod cause;
-mod covers;
+mod coverage;
 mod entries;
 mod ids;
 mod json;

@@ -22,30 +22,30 @@ pub(crate) struct Memory {
 }
 
 /// Things by the places that they have in a document.
-pub(super) type Table<T> = HashMap<Place, Thing<T>>;
+pub(super) type Table<T> = HashMap<Place, EvaluatedEntry<T>>;
 
 /// The place of a thing: the address of its entry, the fragment's instance, and the number of the repetition.
 pub(super) type Place = (usize, Option<u32>, Option<u32>);
 
 /// A thing that was made of an entry.
-pub(super) struct Thing<T> {
+pub(super) struct EvaluatedEntry<T> {
     value: Arc<T>,
     /// What its entry asked for, and what the level gave it.
     asked: Vec<Asked>,
-    given: Given,
+    given: LevelContext,
     /// The last evaluation that it is part of.
     turn: u64,
 }
 
 /// What a level gives to the things of its entries, beside the values that they ask for.
-struct Given {
+struct LevelContext {
     prefix: Arc<str>,
     view: ViewIndex,
     off: bool,
     decided: PassDecisions,
 }
 
-impl Given {
+impl LevelContext {
     fn is_same(&self, level: &Level<'_>, view: ViewIndex, decided: &PassDecisions) -> bool {
         self.view == view && self.off == level.off && self.prefix == level.prefix && self.decided == *decided
     }
@@ -119,9 +119,9 @@ impl<'a> Evaluation<'a> {
         evaluator.scope.answers = Some(&answers);
         let made = entry.evaluate(&mut evaluator).map(|thing| finish(thing, &mut evaluator));
         if let Some(value) = made.as_ref().filter(|_| reader.errors.len() == before) {
-            let given = Given { prefix: level.prefix.clone(), view, off: level.off, decided: decided.clone() };
+            let given = LevelContext { prefix: level.prefix.clone(), view, off: level.off, decided: decided.clone() };
             let (value, asked) = (value.clone(), answers.into_inner());
-            let thing = Thing { value, asked, given, turn };
+            let thing = EvaluatedEntry { value, asked, given, turn };
             T::table(memory).insert(place, thing);
         }
         self.memory = Some(memory);

@@ -3,8 +3,8 @@
 mod area;
 mod choices;
 mod decisions;
-mod named;
 mod part;
+mod part_uses;
 mod pass;
 mod pipeline;
 mod references;
@@ -16,8 +16,8 @@ pub(crate) use area::{Area, LARGEST_SIZE, area, times};
 pub use choices::{Choice, ChosenBy, ChosenValue, Preset, SettingsFile};
 pub(crate) use choices::{in_force, unknown_preset};
 pub use decisions::{Decided, Decisions};
-pub(crate) use named::{PartRef, Use};
 pub use part::{BufferPart, ImagePart, Part, Selection};
+pub(crate) use part_uses::{PartRef, Use};
 pub use pass::{
     Color, Depth, Face, Forward, Groups, LeftOutSample, OffReason, Param, Pass, PassDecisions, Sample, StandIn,
     Storage, StorageAccess, Uniform, Work,
