@@ -7,7 +7,7 @@ use crate::system::html::{self, Template};
 use framewright_graph::base::Sources;
 use framewright_graph::dataflow::{Dataflow, Edge, Node};
 use framewright_graph::difference::Differences;
-use framewright_graph::plan::{Detail, ImageId, MovedBytes, Note, Outline, Plan, Resource, Stage, Step};
+use framewright_graph::plan::{Detail, ImageId, MovedBytes, Outline, Plan, Resource, Step};
 use serde::Serialize;
 
 const TEMPLATE: Template<'_> = Template {
@@ -96,8 +96,6 @@ enum Body<'a> {
         edges: Vec<Edge>,
         moved: Vec<Vec<(Resource, MovedBytes)>>,
         on_chip: Vec<Vec<(ImageId, u64)>>,
-        /// The stage of each note of the Plan.
-        note_stages: Vec<Stage>,
         graph: GraphDrawing,
     },
     /// Nothing but the outline, which is shortened: the Plan is too large to be looked at node by node.
@@ -203,8 +201,7 @@ fn plan_data<'a>(shown: &'a ShownPlan<'a>) -> PlanData<'a> {
     };
     let moved = plan.steps.iter().map(|step| moved(plan, step)).collect();
     let on_chip = plan.steps.iter().map(|step| plan.on_chip_of_each(step)).collect();
-    let note_stages = plan.notes.iter().map(Note::stage).collect();
-    data.body = Body::Whole { plan, nodes: flow.nodes, edges: flow.edges, moved, on_chip, note_stages, graph: drawn };
+    data.body = Body::Whole { plan, nodes: flow.nodes, edges: flow.edges, moved, on_chip, graph: drawn };
     data
 }
 

@@ -140,8 +140,8 @@ fn files_beside_a_pipeline_of_the_program_count_and_are_followed() {
     };
     let settings = |msaa: u32| format!(r#"Settings(version: 1, set: {{"msaa": {msaa}}})"#);
     let mut options = RendererOptions::default();
-    options.files.extensions = vec![place.file("more.ron", &extension("first"))];
-    options.settings = vec![place.file("chosen.ron", &settings(2))];
+    options.files.extensions = vec![place.file("more.ron", extension("first"))];
+    options.settings = vec![place.file("chosen.ron", settings(2))];
     options.shaders = vec![Root::new(place.path(""))];
     let text = r#"Pipeline(version: 1, extends: "forward.ron")"#;
     let mut renderer = Renderer::carried(device, "within", text, options.clone()).expect("it is right");

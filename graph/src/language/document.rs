@@ -153,14 +153,11 @@ impl Document {
         &self,
         values: &[Value],
         surroundings: &Surroundings<'_>,
-        memory: Option<&mut Memory>,
+        mut memory: Option<&mut Memory>,
     ) -> Result<Pipeline, Vec<Diagnostic>> {
+        memory.iter_mut().for_each(|memory| memory.begin(&self.entries));
         let mut reader = Reader::default();
         let values = values.iter().map(|value| Some(value.clone().into())).collect();
-        let memory = memory.map(|memory| {
-            memory.begin(&self.entries);
-            memory
-        });
         match evaluate(&mut reader, &self.entries, values, surroundings, Purpose::Pipeline, memory) {
             Some(pipeline) if reader.errors.is_empty() => {
                 let removed = self.change_log.removed_passes().collect();

@@ -125,6 +125,6 @@ function aboutStep(model, { at, step, nodes }) {
     nodes.length > 0 ? [heading("Work"), list(nodes.map((node) => link(node.key, node.name)))] : null, heading("In the Plan"), line ? outlineList(model, [line]) : null];
 }
 
-function aboutNote(model, { note, stage }) {
-  return [element("h2", {}, note.subject), element("p", {}, "Decided by the stage `" + stage + "`: ", withLinks(note.text)), placeLink(model, note.at)];
+function aboutNote(model, { note }) {
+  return [element("h2", {}, note.subject), element("p", {}, "Decided by the stage `" + note.stage + "`: ", withLinks(note.text)), placeLink(model, note.at)];
 }

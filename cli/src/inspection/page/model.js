@@ -10,7 +10,7 @@ class Model {
     this.sources = data.sources;
     this.outline = data.outline;
     this.summary = data.summary || null;
-    const whole = data.whole || { plan: null, nodes: [], edges: [], moved: [], on_chip: [], note_stages: [], graph: null };
+    const whole = data.whole || { plan: null, nodes: [], edges: [], moved: [], on_chip: [], graph: null };
     Object.assign(this, whole);
     /** What each step moves: image by image, and in all. */
     this.movedEach = this.moved;
@@ -42,7 +42,7 @@ class Model {
       this.relate(key, this.stepKey(node.step));
       for (const use of node.uses) this.relate(key, this.resourceKey(use.resource));
     });
-    this.plan.notes.forEach((note, at) => add("note:" + this.letter + at, { kind: "note", note, stage: this.note_stages[at] }));
+    this.plan.notes.forEach((note, at) => add("note:" + this.letter + at, { kind: "note", note }));
     this.alive = this.plan.steps.map(() => 0);
     for (const resource of this.resources()) {
       const place = resource.role.transient;
