@@ -126,5 +126,5 @@ function aboutStep(model, { at, step, nodes }) {
 }
 
 function aboutNote(model, { note }) {
-  return [element("h2", {}, note.subject), element("p", {}, "Decided by the stage `" + note.stage + "`: ", withLinks(note.text)), placeLink(model, note.at)];
+  return [element("h2", {}, note.subject), element("p", {}, note.kind.replaceAll("_", " ") + ": ", withLinks(note.text)), placeLink(model, note.at)];
 }

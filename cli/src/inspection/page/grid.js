@@ -6,7 +6,7 @@ function gridView(model) {
   if (!model.plan) return tooLarge(model);
   const columns = model.nodes.map((node) => ({ node, key: node.key, title: node.name }));
   model.plan.notes.forEach((note, at) => {
-    if (note.stage === "cull") columns.push({ key: "note:" + model.letter + at, title: note.subject, culled: note.text });
+    if (note.kind === "unneeded") columns.push({ key: "note:" + model.letter + at, title: note.subject, culled: note.text });
   });
   const used = new Map();
   model.nodes.forEach((node, at) => node.uses.forEach((use) => {

@@ -63,11 +63,11 @@ function imagesView(model) {
 function notesView(model) {
   const notes = model.plan ? model.plan.notes : [];
   const parts = model.outline.parts.filter((line) => ["setting", "change", "view", "output", "total"].includes(line.kind));
-  const stages = [...new Set(notes.map((note) => note.stage))];
+  const kinds = [...new Set(notes.map((note) => note.kind))];
   return element("div", {}, parts.map((line) => [element("h2", {}, withLinks(line.text)), outlineList(model, line.parts)]),
-    stages.length > 0 ? element("h2", {}, "Decisions that no step shows") : null,
-    stages.map((stage) => [element("h3", {}, stage), element("ul", { class: "outline" }, notes.map((note, at) => note.stage === stage
-      ? element("li", { "data-key": "note:" + model.letter + at, class: stage === "cull" ? "culled" : null }, link("note:" + model.letter + at, note.subject), ": ", withLinks(note.text), " ", placeLink(model, note.at)) : null))]));
+    kinds.length > 0 ? element("h2", {}, "Decisions that no step shows") : null,
+    kinds.map((kind) => [element("h3", {}, kind.replaceAll("_", " ")), element("ul", { class: "outline" }, notes.map((note, at) => note.kind === kind
+      ? element("li", { "data-key": "note:" + model.letter + at, class: kind === "unneeded" ? "culled" : null }, link("note:" + model.letter + at, note.subject), ": ", withLinks(note.text), " ", placeLink(model, note.at)) : null))]));
 }
 
 /** The files, line by line. */
