@@ -21,11 +21,8 @@ const GUARD: Guard = Guard {
     accept: "FRAMEWRIGHT_ACCEPT=framewright cargo bench --workspace --profile test --bench dev_instructions",
 };
 
-/// A row of the table, and the pipeline and setting that it is about.
-const ROWS: [(&str, fn()); 2] = [
-    ("deferred, another value", || prepare("deferred", "exposure", ["1.5", "2"])),
-    ("auto_exposure, another value", || prepare("auto_exposure", "key", ["0.2", "0.3"])),
-];
+/// A row of the table, and the pipeline and setting that it is about. A larger pipeline takes valgrind minutes to make.
+const ROWS: [(&str, fn()); 1] = [("auto_exposure, another value", || prepare("auto_exposure", "key", ["0.2", "0.3"]))];
 
 fn main() -> Result<ExitCode, Box<dyn Error>> {
     match Device::open(&DeviceOptions::default()) {
