@@ -27,7 +27,8 @@ pub struct Pipeline {
     pub document: Document,
     /// The texts that it was read from.
     pub sources: Arc<Sources>,
-    /// Its shaders and pictures.
+    /// Its shaders and pictures. What a frame found out about a shader is kept for the next frames: a program that changes its shaders opens
+    /// the pipeline anew.
     pub assets: Assets,
     /// The paths of the pictures that it names.
     pub pictures: BTreeSet<Arc<str>>,

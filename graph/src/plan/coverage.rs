@@ -1,4 +1,4 @@
-//! Which passes a Plan takes to replace what they draw into: what was there isn't loaded, or never was.
+//! The passes that a Plan takes to replace the contents of their attachments. Earlier contents of these attachments aren't loaded.
 //!
 //! `verify` asks the same by rules of its own.
 
@@ -7,8 +7,8 @@ use crate::frame::{Blend, Draw};
 use crate::vulkan::{CompareOp, StencilOp};
 
 impl Pass {
-    /// Whether a Plan takes the pass to set every texel of an attachment of `scope`, which is its own. Whoever has its shader must see that
-    /// the shader leaves nothing out.
+    /// Whether a Plan takes the pass to set every texel of an attachment. `scope` is the rendering scope of the pass. An executor checks that
+    /// the shader leaves no texel out.
     #[must_use]
     pub fn is_taken_to_cover(&self, scope: &RenderScope) -> bool {
         let untested = self.depth.is_none_or(|depth| depth.test == CompareOp::Always)

@@ -25,7 +25,7 @@ room! {
     /// Sample counts are 1, 2, 4, 8 and 16, and an image with several samples is flat and has one mip level.
     SAMPLE_COUNT = 604,
 
-    /// The image can't have so many mip levels.
+    /// The image has more mip levels than its size allows.
     ///
     /// Each level is half as large as the one before, down to a single texel, so the size bounds their number.
     /// `mips: Full` makes as many as there are.

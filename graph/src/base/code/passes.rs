@@ -28,8 +28,8 @@ room! {
 
     /// How many workgroups run isn't said, or is more than can run.
     ///
-    /// `groups: Texels("image")` runs the shader for each texel of an image, `Count(8, 8, 1)` so many workgroups, and
-    /// `Indirect("counts")` those that a buffer has, at a multiple of 4 bytes.
+    /// `groups: Texels("image")` runs the shader once for each texel of an image. `Count(8, 8, 1)` runs 64 workgroups.
+    /// `Indirect("counts")` reads their number from a buffer, at a multiple of 4 bytes.
     GROUPS = 705,
 
     /// A pass draws into one image twice.
@@ -82,8 +82,8 @@ room! {
 
     /// The buffer is too small, or a copy wouldn't fill it.
     ///
-    /// A shader's block, a draw's counts and a copy's texels take so many bytes, and a copy fills its target whole.
-    /// The message has both numbers.
+    /// A buffer holds at least the bytes that a pass takes of it: the block of a shader, the counts of a draw, the texels
+    /// of a copy. A copy between buffers also fills its target whole. The message has both numbers.
     BUFFER_SIZE_UNFIT = 715,
 
     /// A linear filter can't be used.

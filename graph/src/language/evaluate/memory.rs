@@ -21,13 +21,13 @@ pub(crate) struct Memory {
     entries: Option<Arc<Entries>>,
 }
 
-/// Things by the places that they have in a document.
+/// Images or passes by the places that they have in a document.
 pub(super) type Table<T> = HashMap<Place, EvaluatedEntry<T>>;
 
-/// The place of a thing: the address of its entry, the fragment's instance, and the number of the repetition.
+/// The place of an image or pass: the address of its entry, the fragment's instance, and the number of the repetition.
 pub(super) type Place = (usize, Option<u32>, Option<u32>);
 
-/// A thing that was made of an entry.
+/// An image or pass that was made of an entry.
 pub(super) struct EvaluatedEntry<T> {
     value: Arc<T>,
     /// What its entry asked for, and what the level gave it.
@@ -37,7 +37,7 @@ pub(super) struct EvaluatedEntry<T> {
     turn: u64,
 }
 
-/// What a level gives to the things of its entries, beside the values that they ask for.
+/// What a level gives to the images and passes of its entries, beside the values that they ask for.
 struct LevelContext {
     prefix: Arc<str>,
     view: ViewIndex,
@@ -51,9 +51,9 @@ impl LevelContext {
     }
 }
 
-/// A kind of thing that is remembered.
+/// What is remembered: images and passes.
 pub(super) trait Remembered: FieldContents {
-    /// The things of its kind.
+    /// The table of its kind.
     fn table(memory: &mut Memory) -> &mut Table<Self>;
 }
 
@@ -86,8 +86,8 @@ impl Memory {
 }
 
 impl<'a> Evaluation<'a> {
-    /// The thing that an entry becomes. It is the one of the last evaluation where all that it depends on is the same and it still
-    /// `fits`; else the entry is evaluated, and `finish` gives the thing its whole name and its place.
+    /// The image or pass that an entry makes. If all that it depends on is as it was in the last evaluation, and it still `fits`, the last
+    /// one is taken. Else the entry is evaluated, and `finish` gives the result its whole name and its place.
     pub(super) fn made<T: Remembered>(
         &mut self,
         reader: &mut Reader,
