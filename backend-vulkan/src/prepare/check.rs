@@ -22,13 +22,16 @@ pub(crate) enum Refusals {
     Malformed,
 }
 
-/// Checks `plan` for itself and against the device; with `poison`, also that its images and buffers can be poisoned.
-pub(crate) fn check(gpu: &Gpu, plan: &Plan, refuse: Refusals, poison: bool) -> Result<(), Error> {
+/// Checks `plan` for itself.
+pub(crate) fn check_alone(plan: &Plan, refuse: Refusals) -> Result<(), Error> {
     let refused = |it: &Violation| refuse == Refusals::Violations || matches!(it.rule, Rule::Structure { .. });
     let violations: Vec<_> = verify(plan).into_iter().filter(refused).collect();
-    if !violations.is_empty() {
-        return Err(Error::Violations { violations });
-    }
+    if violations.is_empty() { Ok(()) } else { Err(Error::Violations { violations }) }
+}
+
+/// Checks `plan` for itself and against the device; with `poison`, also that its images and buffers can be poisoned.
+pub(crate) fn check(gpu: &Gpu, plan: &Plan, refuse: Refusals, poison: bool) -> Result<(), Error> {
+    check_alone(plan, refuse)?;
     for image in &plan.images {
         checked_image(gpu, plan, image, poison)?;
     }
