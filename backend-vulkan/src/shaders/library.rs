@@ -52,9 +52,8 @@ pub struct CompiledCompute {
 
 /// Finds, compiles and reflects shaders. Compiling takes the feature `shader-compiler`: see [`ShaderLibrary::with_precompiled`].
 ///
-/// The shader `NAME` of a draw is `NAME.frag` with `NAME.vert`, or without one with the vertex shader of its kind of
-/// draw: `objects.vert`, `sky.vert`, `full_screen.vert` (custom draws too) or `vertices.vert` (indirect draws too). The
-/// compute shader `NAME` is `NAME.comp`.
+/// The shader `NAME` of a draw is `NAME.frag` with `NAME.vert`, or without one with the
+/// [vertex shader of its kind of draw](Draw::usual_vertex_shader). The compute shader `NAME` is `NAME.comp`.
 ///
 /// A pipeline's file that names a shader has its own beside it: `NAME` in `effects/glow.ron` is the shader `effects/NAME`
 /// if there is one. Else it is looked for in the folders in their order, then among the shipped texts; so is the usual
@@ -211,7 +210,7 @@ impl ShaderLibrary {
     #[must_use]
     pub fn own_texts(&self, from: &FilePath, name: &str) -> Vec<String> {
         let stages = ShaderStage::ALL.map(|stage| stage.file_of(name));
-        let usual = USUAL_VERTEX_SHADERS.map(str::to_owned);
+        let usual = Draw::usual_vertex_shaders().map(str::to_owned);
         let beside = stages.iter().filter_map(|file| from.beside(file).ok());
         let beside = beside.filter(|file| file.folder().is_empty() || self.files.may_read(file.folder()));
         let places = beside.chain(stages.iter().chain(&usual).map(|file| FilePath::Own((&**file).into())));
@@ -408,6 +407,3 @@ fn in_layers(variant: &Variant, stage: ShaderStage) -> Vec<String> {
     let own = variant.eyes.iter().filter(|(_, form, eye)| *form == EyeForm::Layers && eye.is_none());
     own.map(|(name, ..)| name.to_string()).collect()
 }
-
-/// All that [`Draw::usual_vertex_shader`] gives.
-const USUAL_VERTEX_SHADERS: [&str; 4] = ["objects.vert", "sky.vert", "full_screen.vert", "vertices.vert"];
