@@ -55,7 +55,7 @@ pub use base::{Blame, Cache, CachedFiles, Error, INSTALL, end_process};
 pub use commands::Texels;
 pub use execute::{Executor, ExecutorOptions, ExternalStates, ResourceState, SemaphorePoint, Submission};
 pub use gpu::{
-    AdoptedDevice, Device, DeviceChoice, DeviceOptions, DeviceSummary, MINIMUM_VERSION, Message, MessageKind, Messages,
+    AdoptedDevice, Device, DeviceChoice, DeviceFeatures, DeviceOptions, DeviceSummary, MINIMUM_VERSION, Message, MessageKind, Messages,
     PipelineCounts, SamplerDescriptor, ScopeFormats, Severity, layer, minimum_features, optional_features,
     rotation_of_surface,
 };
