@@ -66,7 +66,8 @@ impl Device {
         }
         // SAFETY: the program's word: each structure in the chain is valid.
         let mut has = unsafe { Features::enabled(&instance.raw, program.physical, program.features) };
-        let mut without: Vec<String> = has.missing_of_program().iter().map(|name| format!("the feature {name}")).collect();
+        let mut without: Vec<String> =
+            has.missing_of_program().iter().map(|name| format!("the feature {name}")).collect();
         let given: Vec<u32> = program.queues.iter().map(|(family, _)| *family).collect();
         let families = QueueFamilies::among(&instance.raw, program.physical, &given);
         match &families {

@@ -77,7 +77,7 @@ const OPTIONAL_FEATURES: [OptionalFeature; 4] = [
 ];
 
 /// The same that pipelines can need by their shaders and draws: profiles tell of these.
-const NEEDED_FEATURES: [OptionalFeature; 28] = [
+const NEEDED_FEATURES: [OptionalFeature; 29] = [
     ("imageCubeArray", "shaders that see several cubes at once", |it| &mut it.core.image_cube_array),
     (
         "shaderSampledImageArrayDynamicIndexing",
@@ -146,6 +146,9 @@ const NEEDED_FEATURES: [OptionalFeature; 28] = [
     }),
     ("shaderIntegerDotProduct", "dot products of integers", |it| &mut it.v1_3.shader_integer_dot_product),
     ("vulkanMemoryModel", "shaders of the Vulkan memory model", |it| &mut it.v1_2.vulkan_memory_model),
+    ("vulkanMemoryModelDeviceScope", "what other workgroups see, in the Vulkan memory model", |it| {
+        &mut it.v1_2.vulkan_memory_model_device_scope
+    }),
 ];
 
 /// What devices do with subgroups beyond what each does: Vulkan's name of the property with its bit, and whether it is set.
@@ -198,6 +201,8 @@ impl Features {
         for (_, _, flag) in OPTIONAL_FEATURES.into_iter().chain(NEEDED_FEATURES) {
             *flag(&mut features) = *flag(has);
         }
+        // With the memory model, atomic operations of all shaders are bound to a workgroup unless this is on too.
+        features.v1_2.vulkan_memory_model &= features.v1_2.vulkan_memory_model_device_scope;
         features.local_read.dynamic_rendering_local_read = local_read.into();
         features.subgroups = has.subgroups;
         features
@@ -288,7 +293,9 @@ impl Features {
                     on.v1_3.shader_integer_dot_product = it.shader_integer_dot_product;
                 }
                 Is::PHYSICAL_DEVICE_VULKAN_MEMORY_MODEL_FEATURES => {
-                    on.v1_2.vulkan_memory_model = read!(PhysicalDeviceVulkanMemoryModelFeatures).vulkan_memory_model;
+                    let it = read!(PhysicalDeviceVulkanMemoryModelFeatures);
+                    on.v1_2.vulkan_memory_model = it.vulkan_memory_model;
+                    on.v1_2.vulkan_memory_model_device_scope = it.vulkan_memory_model_device_scope;
                 }
                 Is::PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES => {
                     on.v1_2.timeline_semaphore = read!(PhysicalDeviceTimelineSemaphoreFeatures).timeline_semaphore;
@@ -385,6 +392,11 @@ impl Features {
 
     /// All of them, chained for the creation of a device.
     pub(crate) fn chain(&mut self) -> vk::PhysicalDeviceFeatures2<'_> {
+        // An earlier chain is taken apart.
+        self.v1_1.p_next = std::ptr::null_mut();
+        self.v1_2.p_next = std::ptr::null_mut();
+        self.v1_3.p_next = std::ptr::null_mut();
+        self.local_read.p_next = std::ptr::null_mut();
         let chain = vk::PhysicalDeviceFeatures2::default().features(self.core);
         let chain = chain.push_next(&mut self.v1_1).push_next(&mut self.v1_2).push_next(&mut self.v1_3);
         match self.local_read.dynamic_rendering_local_read {

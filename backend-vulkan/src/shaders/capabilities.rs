@@ -38,7 +38,7 @@ const WITHOUT_FORMAT: &[&str] = &["image1D", "image2D", "image3D", "imageCube", 
 const DOT_PRODUCTS: (&str, &[&str]) = ("shaderIntegerDotProduct", &["dotEXT", "dotPacked", "dotAccSat"]);
 
 /// Capabilities that every stage may need on devices that have the feature of this name, and how words of GLSL begin that need them.
-const OF_DEVICES: [(Capability, &str, &[&str]); 33] = [
+const OF_DEVICES: [(Capability, &str, &[&str]); 34] = [
     // Arrays of cubes.
     (Capability::SampledCubeArray, "imageCubeArray", &["samplerCubeArray", "usamplerCubeArray", "isamplerCubeArray"]),
     (Capability::ImageCubeArray, "imageCubeArray", &["imageCubeArray", "uimageCubeArray", "iimageCubeArray"]),
@@ -70,6 +70,11 @@ const OF_DEVICES: [(Capability, &str, &[&str]); 33] = [
     (Capability::DotProductInput4x8Bit, DOT_PRODUCTS.0, DOT_PRODUCTS.1),
     (Capability::DotProductInput4x8BitPacked, DOT_PRODUCTS.0, DOT_PRODUCTS.1),
     (Capability::VulkanMemoryModel, "vulkanMemoryModel", &["GL_KHR_memory_scope_semantics"]),
+    (
+        Capability::VulkanMemoryModelDeviceScope,
+        "vulkanMemoryModelDeviceScope",
+        &["gl_ScopeDevice", "atomic", "coherent"],
+    ),
     // Subgroups.
     (Capability::GroupNonUniformVote, "subgroupSupportedOperations.VOTE", &["subgroupA"]),
     (Capability::GroupNonUniformArithmetic, "subgroupSupportedOperations.ARITHMETIC", SUBGROUPS),
@@ -152,7 +157,9 @@ fn of_devices(capability: Capability, stage: ShaderStage) -> Option<Vec<Feature>
     let feature = |name, words| Feature { name, words: Words::Beginning(words) };
     let facts = stage.facts();
     match (capability, row) {
-        (Capability::GroupNonUniform, _) => Some(facts.subgroups.map(|name| feature(name, SUBGROUPS)).into_iter().collect()),
+        (Capability::GroupNonUniform, _) => {
+            Some(facts.subgroups.map(|name| feature(name, SUBGROUPS)).into_iter().collect())
+        }
         (Capability::GroupNonUniformQuad, Some((_, name, words))) if facts.places_vertices => {
             Some(vec![feature(name, words), feature("subgroupQuadOperationsInAllStages", words)])
         }

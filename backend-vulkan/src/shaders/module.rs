@@ -2,7 +2,7 @@
 
 use framewright_graph::shader::MatrixLayout;
 use rspirv::dr::{Instruction, Module, Operand};
-use rspirv::spirv::{Decoration, Op, StorageClass};
+use rspirv::spirv::{Capability, Decoration, Op, StorageClass};
 use std::collections::HashMap;
 
 /// A module, indexed. Types may be nested as deep and as wide as they like: nothing here calls itself for what a type is made of.
