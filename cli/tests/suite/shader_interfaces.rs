@@ -143,8 +143,8 @@ fn matrices_arrays_and_shared_locations_are_attributes() {
 fn attributes_that_no_buffer_holds_are_refused_with_their_line() {
     for (declarations, said) in [
         ("layout(location = 1) in float a; layout(location = 1, component = 1) in int b;", "is of another type"),
-        ("layout(location = 1) in dvec2 a;", "64-bit floating point"),
-        ("layout(location = 1) in uint64_t a;", "integers of another size than 32 bits"),
+        ("layout(location = 1) in dvec2 a;", "is a dvec2, and vertices hold numbers of 32 bits"),
+        ("layout(location = 1) in uint64_t a;", "is a uint64_t, and vertices hold numbers of 32 bits"),
     ] {
         let place = vertices(declarations, "true", &[0.0]);
         if declarations.contains("uint64_t") {

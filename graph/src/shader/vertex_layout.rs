@@ -117,8 +117,9 @@ impl VertexLayout {
                 name: input.name.clone(),
                 message: format!("the vertex attribute `{}` {what}", input.name),
             };
-            let (count, Column { kind, components }) =
-                input.columns().ok_or_else(|| fault(&format!("is a {}", input.ty)))?;
+            let (count, Column { kind, components }) = input
+                .columns()
+                .ok_or_else(|| fault(&format!("is a {}, and vertices hold numbers of 32 bits", input.ty)))?;
             let end = input.location.saturating_add(count);
             match attributes.last_mut().filter(|last| **last > input.location) {
                 Some(last) => *last = end.max(*last),
