@@ -56,6 +56,7 @@ mod settings;
 mod shader_files;
 mod shader_interfaces;
 mod shipped_pictures;
+mod spirv;
 mod stereo;
 mod study;
 mod testing;
