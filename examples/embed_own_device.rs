@@ -9,7 +9,7 @@ use framewright_passes::draw::{self, SceneDrawSource};
 use framewright_passes::{scene, shipped};
 use framewright_vulkan::ash::{self, vk};
 use framewright_vulkan::{
-    AdoptedDevice, Device, Executor, ExecutorOptions, MINIMUM_VERSION, SemaphorePoint, ShaderLibrary,
+    AdoptedDevice, Device, DeviceFeatures, Executor, ExecutorOptions, MINIMUM_VERSION, SemaphorePoint, ShaderLibrary,
 };
 use std::error::Error;
 use std::path::Path;
@@ -18,7 +18,7 @@ use std::sync::Arc;
 const EXTENT: [u32; 2] = [320, 180];
 
 fn main() -> Result<(), Box<dyn Error>> {
-    // The engine's own Vulkan: an instance, a device with the features that `minimum_features` lists, and a queue.
+    // The engine's own Vulkan: an instance, a device with what Framewright needs, and a queue.
     // SAFETY: the system's loader is trusted.
     let entry = unsafe { ash::Entry::load()? };
     let application = vk::ApplicationInfo::default().api_version(MINIMUM_VERSION);
@@ -31,25 +31,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     let families = unsafe { instance.get_physical_device_queue_family_properties(physical) };
     let draws = vk::QueueFlags::GRAPHICS | vk::QueueFlags::COMPUTE;
     let family = (0..).zip(&families).find(|(_, family)| family.queue_flags.contains(draws)).ok_or("no queue")?.0;
-    let mut v1_2 = vk::PhysicalDeviceVulkan12Features::default()
-        .timeline_semaphore(true)
-        .host_query_reset(true)
-        .separate_depth_stencil_layouts(true);
-    let mut v1_3 = vk::PhysicalDeviceVulkan13Features::default()
-        .dynamic_rendering(true)
-        .synchronization2(true)
-        .maintenance4(true)
-        .shader_demote_to_helper_invocation(true)
-        .shader_terminate_invocation(true);
-    let core = vk::PhysicalDeviceFeatures::default()
-        .robust_buffer_access(true)
-        .independent_blend(true)
-        .fragment_stores_and_atomics(true)
-        .sample_rate_shading(true);
-    let mut features = vk::PhysicalDeviceFeatures2::default().features(core).push_next(&mut v1_2).push_next(&mut v1_3);
+    // SAFETY: the physical device belongs to the instance, which is one of Vulkan 1.3.
+    let mut needed = unsafe { DeviceFeatures::of(&instance, physical)? };
+    let extensions = needed.extensions().to_vec();
+    let mut features = needed.chain();
+    let names: Vec<_> = extensions.iter().map(|name| name.as_ptr()).collect();
     let queues = [vk::DeviceQueueCreateInfo::default().queue_family_index(family).queue_priorities(&[1.0])];
-    let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues).push_next(&mut features);
-    // SAFETY: the physical device has the family; a feature that it lacks is an error.
+    let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues).enabled_extension_names(&names);
+    let info = info.push_next(&mut features);
+    // SAFETY: the physical device has the family, the features and the extensions.
     let raw = unsafe { instance.create_device(physical, &info, None)? };
     // SAFETY: the device was created with a queue of this family.
     let queue = unsafe { raw.get_device_queue(family, 0) };
@@ -59,7 +49,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         instance_extensions: &[],
         physical,
         device: &raw,
-        device_extensions: &[],
+        device_extensions: &extensions,
         features: &features,
         queues: &[(family, queue)],
         allocator: None,

@@ -55,9 +55,9 @@ pub use base::{Blame, Cache, CachedFiles, Error, INSTALL, end_process};
 pub use commands::Texels;
 pub use execute::{Executor, ExecutorOptions, ExternalStates, ResourceState, SemaphorePoint, Submission};
 pub use gpu::{
-    AdoptedDevice, Device, DeviceChoice, DeviceOptions, DeviceSummary, MINIMUM_VERSION, Message, MessageKind, Messages,
-    PipelineCounts, SamplerDescriptor, ScopeFormats, Severity, layer, minimum_features, optional_features,
-    rotation_of_surface,
+    AdoptedDevice, Device, DeviceChoice, DeviceFeatures, DeviceOptions, DeviceSummary, MINIMUM_VERSION, Message,
+    MessageKind, Messages, PipelineCounts, SamplerDescriptor, ScopeFormats, Severity, layer, minimum_features,
+    optional_features, rotation_of_surface,
 };
 /// The allocator of device memory, for programs whose own one serves an [adopted](AdoptedDevice) device.
 pub use gpu_allocator;

@@ -48,9 +48,8 @@ struct DrawnChoices {
     frame: Choices,
 }
 
-/// The Plan that is drawn, with its executor and the choices that it was made for.
+/// The executor of the Plan that is drawn, and the choices that the Plan was made for.
 struct DrawnPlan {
-    plan: Plan,
     executor: Executor,
     chosen: DrawnChoices,
 }
@@ -230,7 +229,7 @@ impl Renderer {
             true => self.renew(false).inspect_err(|_| self.go_back())?,
             false => Change::Nothing,
         };
-        Ok(PreparedFrame { plan: &self.drawn()?.plan, change })
+        Ok(PreparedFrame { plan: self.drawn()?.executor.plan(), change })
     }
 
     /// Another renderer of the pipeline, with the choices of this one. It reads the files anew, and has drawn nothing. Choices can be
@@ -273,17 +272,16 @@ impl Renderer {
         let Renderer { device, profile, options, pipeline, chosen, compiler, drawn, .. } = self;
         let choices = chosen.of(&pipeline.document);
         let plan = pipeline.plan(compiler, device, profile, &choices, &options.compile)?;
-        let stays = |drawn: &&mut DrawnPlan| !anew && drawn.plan.differs_beyond_values(plan).is_none();
+        let stays = |drawn: &&mut DrawnPlan| !anew && drawn.executor.plan().differs_beyond_values(plan).is_none();
         let change = if let Some(drawn) = drawn.as_mut().filter(stays) {
             drawn.executor.change(plan)?;
-            drawn.plan.clone_from(plan);
             drawn.chosen.clone_from(chosen);
             Change::Values
         } else {
             let mut executor = pipeline.assets.executor(device, plan, &options.executor)?;
             let before = drawn.take().map(|before| executor.migrate_from(before.executor));
             let carried_over = before.transpose()?.unwrap_or_default();
-            *drawn = Some(DrawnPlan { plan: plan.clone(), executor, chosen: chosen.clone() });
+            *drawn = Some(DrawnPlan { executor, chosen: chosen.clone() });
             Change::Executor { carried_over }
         };
         self.changed = false;
@@ -342,8 +340,8 @@ impl Renderer {
     /// Those of [`Renderer::prepare`] and [`Executor::present`].
     pub fn present(&mut self, source: &mut dyn DrawSource, window: &mut Swapchain) -> Result<Presentation, Error> {
         self.prepare()?;
-        let DrawnPlan { plan, executor, .. } = self.drawn()?;
-        Ok(executor.present(source, window, shown(plan))?)
+        let executor = &mut self.drawn()?.executor;
+        Ok(executor.present(source, window, &shown(executor))?)
     }
 
     /// Draws a frame into the next image of a window, then a frame of the renderer `over` over it, such as text, and has both shown: see
@@ -361,10 +359,11 @@ impl Renderer {
     ) -> Result<Presentation, Error> {
         self.prepare()?;
         over.prepare()?;
-        let DrawnPlan { plan: over, executor: over_executor, .. } = over.drawn()?;
-        let overlay = Overlay { executor: over_executor, source: over_source, name: shown(over) };
-        let DrawnPlan { plan, executor, .. } = self.drawn()?;
-        Ok(executor.present_with_overlay(source, window, shown(plan), overlay)?)
+        let over = &mut over.drawn()?.executor;
+        let name = shown(over);
+        let overlay = Overlay { executor: over, source: over_source, name: &name };
+        let executor = &mut self.drawn()?.executor;
+        Ok(executor.present_with_overlay(source, window, &shown(executor), overlay)?)
     }
 
     /// Waits until the device is done with a frame. A frame of an earlier executor counts as done.
@@ -425,7 +424,7 @@ impl Renderer {
     /// The Plan that is drawn; `None` before the first one. [`Renderer::prepare`] makes it.
     #[must_use]
     pub fn plan(&self) -> Option<&Plan> {
-        self.drawn.as_ref().map(|drawn| &drawn.plan)
+        self.drawn.as_ref().map(|drawn| drawn.executor.plan())
     }
 
     /// Its executor.
@@ -464,7 +463,7 @@ impl DrawnChoices {
 impl DrawnPlan {
     /// The number of an output.
     fn output(&self, name: &str) -> Result<usize, Error> {
-        let outputs = &self.plan.outputs;
+        let outputs = &self.executor.plan().outputs;
         outputs.iter().position(|output| *output.name == *name).ok_or_else(|| {
             let known = outputs.iter().map(|output| output.name.to_string()).collect();
             Error::UnknownOutput { name: name.to_owned(), known }
@@ -473,6 +472,6 @@ impl DrawnPlan {
 }
 
 /// The name of the output that windows show.
-fn shown(plan: &Plan) -> &str {
-    plan.outputs.first().map_or("", |output| &output.name)
+fn shown(executor: &Executor) -> Arc<str> {
+    executor.plan().outputs.first().map_or_else(Arc::default, |output| output.name.clone())
 }

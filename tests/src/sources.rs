@@ -36,7 +36,7 @@ pub const KINDS: [Kind; 5] = [
     Kind { name: "Draw", within: "", owners: &["graph/src/frame/"], others: 13 },
     Kind { name: "Role", within: "graph/src/compile/", owners: &["graph/src/compile/model.rs"], others: 10 },
     Kind { name: "BindingKind", within: "", owners: &["graph/src/shader/", "graph/src/plan/"], others: 8 },
-    Kind { name: "BufferRole", within: "", owners: &["graph/src/frame/"], others: 7 },
+    Kind { name: "BufferRole", within: "", owners: &["graph/src/frame/"], others: 4 },
 ];
 
 /// The sets of flags.

@@ -40,6 +40,8 @@ pub(crate) struct StageFacts {
     pub(crate) may_store: bool,
     /// Whether it runs in workgroups, whose size it says.
     pub(crate) has_workgroups: bool,
+    /// The property that a device must have for subgroups in it; `None`: every device has it.
+    pub(crate) subgroups: Option<&'static str>,
 }
 
 impl ShaderStage {
@@ -71,6 +73,7 @@ impl ShaderStage {
                 writes_attachments: false,
                 may_store: false,
                 has_workgroups: false,
+                subgroups: Some("subgroupSupportedStages.VERTEX"),
             },
             ShaderStage::Fragment => StageFacts {
                 name: "fragment",
@@ -84,6 +87,7 @@ impl ShaderStage {
                 writes_attachments: true,
                 may_store: true,
                 has_workgroups: false,
+                subgroups: Some("subgroupSupportedStages.FRAGMENT"),
             },
             ShaderStage::Compute => StageFacts {
                 name: "compute",
@@ -97,6 +101,7 @@ impl ShaderStage {
                 writes_attachments: false,
                 may_store: true,
                 has_workgroups: true,
+                subgroups: None,
             },
         }
     }

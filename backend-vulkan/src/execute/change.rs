@@ -3,7 +3,7 @@
 use super::executor::Executor;
 use crate::base::Error;
 use crate::memory::RawBuffer;
-use crate::prepare::{PreparedStep, Refusals, check};
+use crate::prepare::{PreparedStep, Refusals, check_alone};
 use ash::vk;
 use framewright_graph::plan::Plan;
 use std::sync::Arc;
@@ -40,7 +40,8 @@ impl Executor {
         if let Some(what) = self.plan.differs_beyond_values(plan) {
             return Err(Error::BadPlan { what: format!("an executor must be made anew for it: {what}") });
         }
-        check(&self.gpu, plan, Refusals::Violations, self.poisons())?;
+        // The device has what the Plan before needed, and values need no more of it.
+        check_alone(plan, Refusals::Violations)?;
         let pipelines = self.changed_pipelines(plan)?;
         let changed = self.changed_params(plan)?;
         if !changed.is_empty() {

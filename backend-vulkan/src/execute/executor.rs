@@ -27,7 +27,6 @@ use std::sync::Arc;
 pub struct Executor {
     pub(crate) gpu: Arc<Gpu>,
     pub(crate) plan: Plan,
-    options: ExecutorOptions,
     /// The number of its first frame.
     pub(super) first_frame: u64,
     pub(super) imports: Vec<Import>,
@@ -117,7 +116,6 @@ impl Executor {
             missing: Vec::new(),
             _pipelines: pipelines,
             plan: plan.clone(),
-            options: options.clone(),
             first_frame: 0,
             imports,
             uses,
@@ -293,11 +291,6 @@ impl Executor {
     pub(super) fn own(&self, frame: u64) -> Result<u64, Error> {
         let earlier = || Error::BadResource { what: format!("frame {frame} was drawn by an earlier Plan") };
         frame.checked_sub(self.first_frame).ok_or_else(earlier)
-    }
-
-    /// Whether transient images and buffers are filled with conspicuous values.
-    pub(crate) fn poisons(&self) -> bool {
-        self.options.poison
     }
 
     /// Gives what outlives the frame its first contents, unless that is done.

@@ -1,4 +1,5 @@
-//! Migration to another Plan: images and buffers that persist in both keep their contents.
+//! Migration to another Plan, after a resize or another setting: images and buffers that persist in both keep their contents. Others
+//! begin anew, in `initial_contents.rs`.
 
 use super::executor::Executor;
 use crate::base::Error;

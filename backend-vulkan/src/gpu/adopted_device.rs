@@ -17,7 +17,8 @@ use std::sync::{Arc, Mutex};
 /// A device that the program made itself, and what it was made with: for [`Device::adopt`].
 ///
 /// Its instance must have Vulkan 1.3 as its `apiVersion`. The features of [`minimum_features`](crate::minimum_features) must be switched
-/// on; those of [`optional_features`](crate::optional_features) are used where they are.
+/// on, but for `robustBufferAccess`; those of [`optional_features`](crate::optional_features) are used where they are.
+/// [`DeviceFeatures`](crate::DeviceFeatures) has all of them, as a chain.
 pub struct AdoptedDevice<'p> {
     /// The instance.
     pub instance: &'p ash::Instance,
@@ -53,6 +54,7 @@ impl Device {
     /// - The instance, the device and the queues live until everything made from the adopted device is gone, and belong together.
     /// - Extensions and features are those that they were created with; each structure in the chain of features is valid.
     /// - An allocator is one of this device, made without `buffer_device_address` unless that feature is switched on.
+    /// - Without `robustBufferAccess`, no index of a draw, an indirect draw or a shader reaches beyond its buffer.
     /// - While this crate draws, uploads or reads back, no other thread submits to these queues.
     pub unsafe fn adopt(program: &AdoptedDevice<'_>, helper: Option<Helper>) -> Result<Device, Error> {
         let on = |extensions: &[&CStr], name: &CStr| extensions.contains(&name);
@@ -63,8 +65,9 @@ impl Device {
             return Err(Error::Lacking { device: summary.name, missing: lacks });
         }
         // SAFETY: the program's word: each structure in the chain is valid.
-        let mut has = unsafe { Features::enabled(program.features) };
-        let mut without: Vec<String> = has.missing().iter().map(|name| format!("the feature {name}")).collect();
+        let mut has = unsafe { Features::enabled(&instance.raw, program.physical, program.features) };
+        let mut without: Vec<String> =
+            has.missing_of_program().iter().map(|name| format!("the feature {name}")).collect();
         let given: Vec<u32> = program.queues.iter().map(|(family, _)| *family).collect();
         let families = QueueFamilies::among(&instance.raw, program.physical, &given);
         match &families {

@@ -1,6 +1,7 @@
 //! The features that a device must have, and those that are used where it has them.
 
 use ash::vk;
+use std::marker::PhantomData;
 
 /// Feature structures in the order in which they are chained.
 #[derive(Default)]
@@ -10,6 +11,15 @@ pub(crate) struct Features {
     v1_2: vk::PhysicalDeviceVulkan12Features<'static>,
     v1_3: vk::PhysicalDeviceVulkan13Features<'static>,
     local_read: vk::PhysicalDeviceDynamicRenderingLocalReadFeaturesKHR<'static>,
+    subgroups: Subgroups,
+}
+
+/// What a device can do with subgroups. No feature switches it on.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Subgroups {
+    operations: vk::SubgroupFeatureFlags,
+    stages: vk::ShaderStageFlags,
+    quads_in_all_stages: bool,
 }
 
 /// The features that a device must have beside [`crate::MINIMUM_VERSION`], by Vulkan's names.
@@ -28,6 +38,9 @@ type Flag = fn(&mut Features) -> &mut vk::Bool32;
 /// A feature that is used where a device has it: Vulkan's name, the purpose, the flag.
 type OptionalFeature = (&'static str, &'static str, Flag);
 
+/// The one feature of the minimum that a program may leave out of a device that it makes itself.
+const ROBUST: &str = "robustBufferAccess";
+
 /// The minimum device, feature by feature: Vulkan's name, the flag. All of these are switched on.
 const MINIMUM_FEATURES: [(&str, Flag); 12] = [
     // Rendering scopes without render pass objects.
@@ -45,8 +58,8 @@ const MINIMUM_FEATURES: [(&str, Flag); 12] = [
     ("hostQueryReset", |it| &mut it.v1_2.host_query_reset),
     // Depth and stencil are tracked apart.
     ("separateDepthStencilLayouts", |it| &mut it.v1_2.separate_depth_stencil_layouts),
-    // Indices of a model file can't reach beyond their vertex buffer.
-    ("robustBufferAccess", |it| &mut it.core.robust_buffer_access),
+    // Files and shaders of strangers can't reach beyond their buffers.
+    (ROBUST, |it| &mut it.core.robust_buffer_access),
     // Another blend for each attachment.
     ("independentBlend", |it| &mut it.core.independent_blend),
     // Storage images that fragment shaders write.
@@ -64,7 +77,7 @@ const OPTIONAL_FEATURES: [OptionalFeature; 4] = [
 ];
 
 /// The same that pipelines can need by their shaders and draws: profiles tell of these.
-const NEEDED_FEATURES: [OptionalFeature; 9] = [
+const NEEDED_FEATURES: [OptionalFeature; 29] = [
     ("imageCubeArray", "shaders that see several cubes at once", |it| &mut it.core.image_cube_array),
     (
         "shaderSampledImageArrayDynamicIndexing",
@@ -96,7 +109,64 @@ const NEEDED_FEATURES: [OptionalFeature; 9] = [
     ("shaderZeroInitializeWorkgroupMemory", "shared variables that begin with 0", |it| {
         &mut it.v1_3.shader_zero_initialize_workgroup_memory
     }),
+    ("shaderFloat64", "floating point of 64 bits", |it| &mut it.core.shader_float64),
+    ("shaderInt64", "integers of 64 bits", |it| &mut it.core.shader_int64),
+    ("shaderInt16", "integers of 16 bits", |it| &mut it.core.shader_int16),
+    ("shaderFloat16", "floating point of 16 bits", |it| &mut it.v1_2.shader_float16),
+    ("shaderInt8", "integers of 8 bits", |it| &mut it.v1_2.shader_int8),
+    ("storageBuffer16BitAccess", "numbers of 16 bits in storage blocks", |it| &mut it.v1_1.storage_buffer16_bit_access),
+    ("uniformAndStorageBuffer16BitAccess", "numbers of 16 bits in uniform blocks", |it| {
+        &mut it.v1_1.uniform_and_storage_buffer16_bit_access
+    }),
+    ("storageBuffer8BitAccess", "numbers of 8 bits in storage blocks", |it| &mut it.v1_2.storage_buffer8_bit_access),
+    ("uniformAndStorageBuffer8BitAccess", "numbers of 8 bits in uniform blocks", |it| {
+        &mut it.v1_2.uniform_and_storage_buffer8_bit_access
+    }),
+    ("shaderBufferInt64Atomics", "atomic operations on 64 bits in storage blocks", |it| {
+        &mut it.v1_2.shader_buffer_int64_atomics
+    }),
+    ("shaderSharedInt64Atomics", "atomic operations on 64 bits in shared variables", |it| {
+        &mut it.v1_2.shader_shared_int64_atomics
+    }),
+    ("shaderStorageImageReadWithoutFormat", "loads from storage images without a format", |it| {
+        &mut it.core.shader_storage_image_read_without_format
+    }),
+    ("shaderStorageImageWriteWithoutFormat", "stores into storage images without a format", |it| {
+        &mut it.core.shader_storage_image_write_without_format
+    }),
+    ("shaderImageGatherExtended", "gathers with offsets that vary or differ", |it| {
+        &mut it.core.shader_image_gather_extended
+    }),
+    ("shaderDrawParameters", "the base vertex, base instance and number of a draw", |it| {
+        &mut it.v1_1.shader_draw_parameters
+    }),
+    ("geometryShader", "numbers of primitives in fragment shaders", |it| &mut it.core.geometry_shader),
+    ("shaderSubgroupExtendedTypes", "operations of subgroups on numbers that don't have 32 bits", |it| {
+        &mut it.v1_2.shader_subgroup_extended_types
+    }),
+    ("shaderIntegerDotProduct", "dot products of integers", |it| &mut it.v1_3.shader_integer_dot_product),
+    ("vulkanMemoryModel", "shaders of the Vulkan memory model", |it| &mut it.v1_2.vulkan_memory_model),
+    ("vulkanMemoryModelDeviceScope", "what other workgroups see, in the Vulkan memory model", |it| {
+        &mut it.v1_2.vulkan_memory_model_device_scope
+    }),
 ];
+
+/// What devices do with subgroups beyond what each does: Vulkan's name of the property with its bit, and whether it is set.
+const SUBGROUPS: [(&str, fn(Subgroups) -> bool); 10] = {
+    use vk::{ShaderStageFlags as Stage, SubgroupFeatureFlags as Does};
+    [
+        ("subgroupSupportedOperations.VOTE", |it| it.operations.contains(Does::VOTE)),
+        ("subgroupSupportedOperations.ARITHMETIC", |it| it.operations.contains(Does::ARITHMETIC)),
+        ("subgroupSupportedOperations.BALLOT", |it| it.operations.contains(Does::BALLOT)),
+        ("subgroupSupportedOperations.SHUFFLE", |it| it.operations.contains(Does::SHUFFLE)),
+        ("subgroupSupportedOperations.SHUFFLE_RELATIVE", |it| it.operations.contains(Does::SHUFFLE_RELATIVE)),
+        ("subgroupSupportedOperations.CLUSTERED", |it| it.operations.contains(Does::CLUSTERED)),
+        ("subgroupSupportedOperations.QUAD", |it| it.operations.contains(Does::QUAD)),
+        ("subgroupSupportedStages.VERTEX", |it| it.stages.contains(Stage::VERTEX)),
+        ("subgroupSupportedStages.FRAGMENT", |it| it.stages.contains(Stage::FRAGMENT)),
+        ("subgroupQuadOperationsInAllStages", |it| it.quads_in_all_stages),
+    ]
+};
 
 impl Features {
     /// The features of `physical`. `local_read`: whether its extension is there.
@@ -117,7 +187,8 @@ impl Features {
         v1_2.p_next = std::ptr::null_mut();
         v1_3.p_next = std::ptr::null_mut();
         local.p_next = std::ptr::null_mut();
-        Features { core, v1_1, v1_2, v1_3, local_read: local }
+        let subgroups = Subgroups::of(instance, physical);
+        Features { core, v1_1, v1_2, v1_3, local_read: local, subgroups }
     }
 
     /// The features that are switched on: the minimum, and beyond it what [`optional_features`] lists, and local
@@ -130,17 +201,25 @@ impl Features {
         for (_, _, flag) in OPTIONAL_FEATURES.into_iter().chain(NEEDED_FEATURES) {
             *flag(&mut features) = *flag(has);
         }
+        // With the memory model, atomic operations of all shaders are bound to a workgroup unless this is on too.
+        features.v1_2.vulkan_memory_model &= features.v1_2.vulkan_memory_model_device_scope;
         features.local_read.dynamic_rendering_local_read = local_read.into();
+        features.subgroups = has.subgroups;
         features
     }
 
-    /// The features in the chain that a device was created with. A feature of Vulkan 1.0 to 1.3 may stand in the structure of its version,
+    /// The features in the chain that a device of `physical` was created with. A feature of Vulkan 1.0 to 1.3 may stand in the structure of its version,
     /// or in that of the extension that it comes from.
     ///
     /// # Safety
-    /// Each structure in the chain is valid, and of the type that it says.
-    pub(super) unsafe fn enabled(chain: &vk::PhysicalDeviceFeatures2<'_>) -> Features {
-        let mut on = Features { core: chain.features, ..Features::default() };
+    /// `physical` belongs to `instance`, and each structure in the chain is valid, and of the type that it says.
+    pub(super) unsafe fn enabled(
+        instance: &ash::Instance,
+        physical: vk::PhysicalDevice,
+        chain: &vk::PhysicalDeviceFeatures2<'_>,
+    ) -> Features {
+        let subgroups = Subgroups::of(instance, physical);
+        let mut on = Features { core: chain.features, subgroups, ..Features::default() };
         let mut next = chain.p_next.cast::<vk::BaseInStructure<'_>>().cast_const();
         // SAFETY: the caller's word: it is null or a valid structure.
         while let Some(structure) = unsafe { next.as_ref() } {
@@ -151,25 +230,17 @@ impl Features {
                     unsafe { &*next.cast::<vk::$structure<'_>>() }
                 };
             }
+            macro_rules! whole {
+                ($structure:ident) => {
+                    vk::$structure { p_next: std::ptr::null_mut(), _marker: PhantomData, ..*read!($structure) }
+                };
+            }
             match structure.s_type {
-                Is::PHYSICAL_DEVICE_VULKAN_1_1_FEATURES => {
-                    on.v1_1.multiview = read!(PhysicalDeviceVulkan11Features).multiview;
-                }
+                Is::PHYSICAL_DEVICE_VULKAN_1_1_FEATURES => on.v1_1 = whole!(PhysicalDeviceVulkan11Features),
+                Is::PHYSICAL_DEVICE_VULKAN_1_2_FEATURES => on.v1_2 = whole!(PhysicalDeviceVulkan12Features),
+                Is::PHYSICAL_DEVICE_VULKAN_1_3_FEATURES => on.v1_3 = whole!(PhysicalDeviceVulkan13Features),
                 Is::PHYSICAL_DEVICE_MULTIVIEW_FEATURES => {
                     on.v1_1.multiview = read!(PhysicalDeviceMultiviewFeatures).multiview;
-                }
-                Is::PHYSICAL_DEVICE_VULKAN_1_2_FEATURES => {
-                    let it = read!(PhysicalDeviceVulkan12Features);
-                    on.v1_2.timeline_semaphore = it.timeline_semaphore;
-                    on.v1_2.host_query_reset = it.host_query_reset;
-                    on.v1_2.separate_depth_stencil_layouts = it.separate_depth_stencil_layouts;
-                    on.v1_2.shader_output_layer = it.shader_output_layer;
-                    on.v1_2.scalar_block_layout = it.scalar_block_layout;
-                    on.v1_2.uniform_buffer_standard_layout = it.uniform_buffer_standard_layout;
-                    on.v1_2.shader_sampled_image_array_non_uniform_indexing =
-                        it.shader_sampled_image_array_non_uniform_indexing;
-                    on.v1_2.shader_storage_image_array_non_uniform_indexing =
-                        it.shader_storage_image_array_non_uniform_indexing;
                 }
                 Is::PHYSICAL_DEVICE_DESCRIPTOR_INDEXING_FEATURES => {
                     let it = read!(PhysicalDeviceDescriptorIndexingFeatures);
@@ -189,6 +260,43 @@ impl Features {
                     let it = read!(PhysicalDeviceZeroInitializeWorkgroupMemoryFeatures);
                     on.v1_3.shader_zero_initialize_workgroup_memory = it.shader_zero_initialize_workgroup_memory;
                 }
+                Is::PHYSICAL_DEVICE_16BIT_STORAGE_FEATURES => {
+                    let it = read!(PhysicalDevice16BitStorageFeatures);
+                    on.v1_1.storage_buffer16_bit_access = it.storage_buffer16_bit_access;
+                    on.v1_1.uniform_and_storage_buffer16_bit_access = it.uniform_and_storage_buffer16_bit_access;
+                }
+                Is::PHYSICAL_DEVICE_8BIT_STORAGE_FEATURES => {
+                    let it = read!(PhysicalDevice8BitStorageFeatures);
+                    on.v1_2.storage_buffer8_bit_access = it.storage_buffer8_bit_access;
+                    on.v1_2.uniform_and_storage_buffer8_bit_access = it.uniform_and_storage_buffer8_bit_access;
+                }
+                Is::PHYSICAL_DEVICE_SHADER_FLOAT16_INT8_FEATURES => {
+                    let it = read!(PhysicalDeviceShaderFloat16Int8Features);
+                    on.v1_2.shader_float16 = it.shader_float16;
+                    on.v1_2.shader_int8 = it.shader_int8;
+                }
+                Is::PHYSICAL_DEVICE_SHADER_ATOMIC_INT64_FEATURES => {
+                    let it = read!(PhysicalDeviceShaderAtomicInt64Features);
+                    on.v1_2.shader_buffer_int64_atomics = it.shader_buffer_int64_atomics;
+                    on.v1_2.shader_shared_int64_atomics = it.shader_shared_int64_atomics;
+                }
+                Is::PHYSICAL_DEVICE_SHADER_DRAW_PARAMETERS_FEATURES => {
+                    let it = read!(PhysicalDeviceShaderDrawParametersFeatures);
+                    on.v1_1.shader_draw_parameters = it.shader_draw_parameters;
+                }
+                Is::PHYSICAL_DEVICE_SHADER_SUBGROUP_EXTENDED_TYPES_FEATURES => {
+                    let it = read!(PhysicalDeviceShaderSubgroupExtendedTypesFeatures);
+                    on.v1_2.shader_subgroup_extended_types = it.shader_subgroup_extended_types;
+                }
+                Is::PHYSICAL_DEVICE_SHADER_INTEGER_DOT_PRODUCT_FEATURES => {
+                    let it = read!(PhysicalDeviceShaderIntegerDotProductFeatures);
+                    on.v1_3.shader_integer_dot_product = it.shader_integer_dot_product;
+                }
+                Is::PHYSICAL_DEVICE_VULKAN_MEMORY_MODEL_FEATURES => {
+                    let it = read!(PhysicalDeviceVulkanMemoryModelFeatures);
+                    on.v1_2.vulkan_memory_model = it.vulkan_memory_model;
+                    on.v1_2.vulkan_memory_model_device_scope = it.vulkan_memory_model_device_scope;
+                }
                 Is::PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES => {
                     on.v1_2.timeline_semaphore = read!(PhysicalDeviceTimelineSemaphoreFeatures).timeline_semaphore;
                 }
@@ -198,15 +306,6 @@ impl Features {
                 Is::PHYSICAL_DEVICE_SEPARATE_DEPTH_STENCIL_LAYOUTS_FEATURES => {
                     let it = read!(PhysicalDeviceSeparateDepthStencilLayoutsFeatures);
                     on.v1_2.separate_depth_stencil_layouts = it.separate_depth_stencil_layouts;
-                }
-                Is::PHYSICAL_DEVICE_VULKAN_1_3_FEATURES => {
-                    let it = read!(PhysicalDeviceVulkan13Features);
-                    on.v1_3.dynamic_rendering = it.dynamic_rendering;
-                    on.v1_3.synchronization2 = it.synchronization2;
-                    on.v1_3.maintenance4 = it.maintenance4;
-                    on.v1_3.shader_zero_initialize_workgroup_memory = it.shader_zero_initialize_workgroup_memory;
-                    on.v1_3.shader_demote_to_helper_invocation = it.shader_demote_to_helper_invocation;
-                    on.v1_3.shader_terminate_invocation = it.shader_terminate_invocation;
                 }
                 Is::PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES => {
                     on.v1_3.dynamic_rendering = read!(PhysicalDeviceDynamicRenderingFeatures).dynamic_rendering;
@@ -241,6 +340,11 @@ impl Features {
         MINIMUM_FEATURES.iter().filter(|(_, flag)| *flag(self) == vk::FALSE).map(|(name, _)| *name).collect()
     }
 
+    /// The same of a device that the program made, which vouches for its indices: see [`crate::Device::adopt`].
+    pub(super) fn missing_of_program(&mut self) -> Vec<&'static str> {
+        self.missing().into_iter().filter(|name| *name != ROBUST).collect()
+    }
+
     /// Whether a feature that pipelines can need is switched on. `name` is Vulkan's.
     pub(crate) fn has(&self, name: &str) -> bool {
         self.needed().any(|known| known == name)
@@ -248,9 +352,12 @@ impl Features {
 
     /// Vulkan's names of the features that are switched on, and that pipelines can need.
     pub(crate) fn needed(&self) -> impl Iterator<Item = &'static str> {
-        let Features { core, v1_1, v1_2, v1_3, local_read } = *self;
-        let mut all = Features { core, v1_1, v1_2, v1_3, local_read };
-        NEEDED_FEATURES.into_iter().filter_map(move |(name, _, flag)| (*flag(&mut all) == vk::TRUE).then_some(name))
+        let Features { core, v1_1, v1_2, v1_3, local_read, subgroups } = *self;
+        let mut all = Features { core, v1_1, v1_2, v1_3, local_read, subgroups };
+        let features = NEEDED_FEATURES
+            .into_iter()
+            .filter_map(move |(name, _, flag)| (*flag(&mut all) == vk::TRUE).then_some(name));
+        features.chain(SUBGROUPS.into_iter().filter(move |(_, has)| has(subgroups)).map(|(name, _)| name))
     }
 
     /// Whether fragment shaders can read what their rendering scope drew.
@@ -283,14 +390,33 @@ impl Features {
         self.core.pipeline_statistics_query == vk::TRUE
     }
 
-    /// Switches these features on in a device's creation.
-    pub(crate) fn chain<'i>(&'i mut self, info: vk::DeviceCreateInfo<'i>) -> vk::DeviceCreateInfo<'i> {
-        let info = info.enabled_features(&self.core);
-        let info = info.push_next(&mut self.v1_1).push_next(&mut self.v1_2).push_next(&mut self.v1_3);
-        if self.local_read.dynamic_rendering_local_read == vk::TRUE {
-            info.push_next(&mut self.local_read)
-        } else {
-            info
+    /// All of them, chained for the creation of a device.
+    pub(crate) fn chain(&mut self) -> vk::PhysicalDeviceFeatures2<'_> {
+        // An earlier chain is taken apart.
+        self.v1_1.p_next = std::ptr::null_mut();
+        self.v1_2.p_next = std::ptr::null_mut();
+        self.v1_3.p_next = std::ptr::null_mut();
+        self.local_read.p_next = std::ptr::null_mut();
+        let chain = vk::PhysicalDeviceFeatures2::default().features(self.core);
+        let chain = chain.push_next(&mut self.v1_1).push_next(&mut self.v1_2).push_next(&mut self.v1_3);
+        match self.local_read.dynamic_rendering_local_read {
+            vk::TRUE => chain.push_next(&mut self.local_read),
+            _ => chain,
+        }
+    }
+}
+
+impl Subgroups {
+    /// What `physical` can do.
+    fn of(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Subgroups {
+        let mut subgroups = vk::PhysicalDeviceSubgroupProperties::default();
+        let mut all = vk::PhysicalDeviceProperties2::default().push_next(&mut subgroups);
+        // SAFETY: `physical` belongs to `instance`, and the chained structure outlives the call.
+        unsafe { instance.get_physical_device_properties2(physical, &mut all) };
+        Subgroups {
+            operations: subgroups.supported_operations,
+            stages: subgroups.supported_stages,
+            quads_in_all_stages: subgroups.quad_operations_in_all_stages == vk::TRUE,
         }
     }
 }

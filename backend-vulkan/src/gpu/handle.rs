@@ -95,7 +95,8 @@ impl Gpu {
         let extensions: Vec<_> =
             extensions.into_iter().filter_map(|(there, name)| there.then_some(name.as_ptr())).collect();
         let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues).enabled_extension_names(&extensions);
-        let mut info = chained.chain(info);
+        let mut chain = chained.chain();
+        let mut info = info.push_next(&mut chain);
         if let Some(subset) = &mut subset {
             info = info.push_next(subset);
         }

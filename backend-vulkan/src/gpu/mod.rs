@@ -3,6 +3,7 @@
 mod adopted_device;
 mod cached_objects;
 mod device;
+mod device_features;
 pub(crate) mod features;
 mod handle;
 mod instance;
@@ -23,6 +24,7 @@ mod words;
 pub use adopted_device::AdoptedDevice;
 pub use cached_objects::{SamplerDescriptor, ScopeFormats};
 pub use device::{Device, DeviceOptions};
+pub use device_features::DeviceFeatures;
 pub use features::{minimum_features, optional_features};
 pub use minimum::MINIMUM_VERSION;
 pub use pipeline_cache::PipelineCounts;

@@ -8,7 +8,6 @@ use crate::gpu::Gpu;
 use ash::vk;
 use framewright_graph::base::amount;
 use framewright_graph::device::{ImageDescriptor, Limit, MemoryNeeds};
-use framewright_graph::frame::BufferRole;
 use framewright_graph::plan::{Buffer, Image, ImageBarrier, MemoryBarrier, Placement, Plan, Resource, Role};
 use framewright_graph::verify::{Rule, Violation, verify};
 use framewright_graph::vulkan::{BufferUsage, Layout, State, Usage, name_of};
@@ -22,13 +21,16 @@ pub(crate) enum Refusals {
     Malformed,
 }
 
-/// Checks `plan` for itself and against the device; with `poison`, also that its images and buffers can be poisoned.
-pub(crate) fn check(gpu: &Gpu, plan: &Plan, refuse: Refusals, poison: bool) -> Result<(), Error> {
+/// Checks `plan` for itself.
+pub(crate) fn check_alone(plan: &Plan, refuse: Refusals) -> Result<(), Error> {
     let refused = |it: &Violation| refuse == Refusals::Violations || matches!(it.rule, Rule::Structure { .. });
     let violations: Vec<_> = verify(plan).into_iter().filter(refused).collect();
-    if !violations.is_empty() {
-        return Err(Error::Violations { violations });
-    }
+    if violations.is_empty() { Ok(()) } else { Err(Error::Violations { violations }) }
+}
+
+/// Checks `plan` for itself and against the device; with `poison`, also that its images and buffers can be poisoned.
+pub(crate) fn check(gpu: &Gpu, plan: &Plan, refuse: Refusals, poison: bool) -> Result<(), Error> {
+    check_alone(plan, refuse)?;
     for image in &plan.images {
         checked_image(gpu, plan, image, poison)?;
     }
@@ -95,11 +97,7 @@ fn checked_buffer(gpu: &Gpu, plan: &Plan, buffer: &Buffer, poison: bool) -> Resu
     let limits = gpu.shader_limits();
     // Usage says less: what a custom pass reads may be used in any way.
     let accesses = plan.steps.iter().flat_map(|step| step.work.passes()).flat_map(|pass| &pass.buffers);
-    let bound = accesses.filter(|access| access.buffer == buffer.id).filter_map(|access| match access.role? {
-        BufferRole::Uniform => Some(Limit::UniformBytes),
-        BufferRole::Storage { .. } => Some(Limit::StorageBytes),
-        BufferRole::Vertex | BufferRole::Index | BufferRole::Indirect => None,
-    });
+    let bound = accesses.filter(|access| access.buffer == buffer.id).filter_map(|access| Some(access.role?.limit()?.0));
     let exceeds = |limit: &Limit| buffer.bytes > limits.of(*limit);
     let is_small = ![Limit::UniformBytes, Limit::StorageBytes, Limit::BufferBytes].iter().any(exceeds);
     let exceeded = if is_small { None } else { [Limit::BufferBytes].into_iter().chain(bound).find(exceeds) };

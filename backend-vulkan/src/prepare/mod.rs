@@ -24,7 +24,7 @@ mod uses;
 mod variant;
 
 pub(crate) use batches::{Batch, batches};
-pub(crate) use check::{Refusals, check};
+pub(crate) use check::{Refusals, check, check_alone};
 pub(crate) use command_list::{
     Bindings, Command, CommandList, DispatchCommand, DrawCommand, DrawCounts, DrawnVertices, OwnDraw, ScopeCommand,
     WorkgroupCount,

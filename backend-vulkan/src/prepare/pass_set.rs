@@ -330,9 +330,12 @@ fn image(
             let Some((shape, format)) = wanted.kind.storage_image() else { return otherwise("a storage image") };
             samples(shape.multisampled)?;
             only_read(name, wanted.kind.is_written(), access.accesses)?;
-            if format != Some(image.format) {
-                let declared = format.map_or("no format".to_owned(), |format| format.to_string());
-                return Err(format!("the shader declares `{name}` with {declared}, and it is {}", image.format));
+            match format {
+                Some(declared) if declared != image.format => {
+                    return Err(format!("the shader declares `{name}` with {declared}, and it is {}", image.format));
+                }
+                // Without a format it may have any with such components.
+                _ => read(shape.component)?,
             }
             let shape = view_shape(gpu, name, shape, image, range)?;
             Ok((vk::DescriptorType::STORAGE_IMAGE, whole(shape, None)))

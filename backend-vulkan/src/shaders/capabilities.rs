@@ -6,7 +6,6 @@ use super::needs::Feature;
 use super::text::{RefusedStage, Words};
 use crate::base::ShaderStage;
 use crate::base::named;
-use rspirv::dr::Operand;
 use rspirv::spirv::Capability;
 
 /// Capabilities that every stage may need: those of the minimum device, and the ones with a remark below.
@@ -31,20 +30,66 @@ const EVERYWHERE: [Capability; 14] = [
     Capability::ShaderNonUniform,
 ];
 
-/// Capabilities that every stage may need on devices that have the feature of this name, and how words of GLSL begin that need them:
-/// arrays of cubes; and elements of arrays that are chosen by a number that changes, from draw to draw, or from pixel to pixel
-/// (`nonuniformEXT`).
-const OF_DEVICES: [(Capability, &str, &[&str]); 6] = [
+/// Words of GLSL that need numbers of a width.
+const INT64: &[&str] = &["int64", "uint64", "i64vec", "u64vec"];
+const BITS_16: &[&str] = &["int16", "uint16", "i16vec", "u16vec", "float16", "f16vec", "f16mat"];
+const BITS_8: &[&str] = &["int8", "uint8", "i8vec", "u8vec"];
+const WITHOUT_FORMAT: &[&str] = &["image1D", "image2D", "image3D", "imageCube", "uimage", "iimage"];
+const DOT_PRODUCTS: (&str, &[&str]) = ("shaderIntegerDotProduct", &["dotEXT", "dotPacked", "dotAccSat"]);
+
+/// Capabilities that every stage may need on devices that have the feature of this name, and how words of GLSL begin that need them.
+const OF_DEVICES: [(Capability, &str, &[&str]); 34] = [
+    // Arrays of cubes.
     (Capability::SampledCubeArray, "imageCubeArray", &["samplerCubeArray", "usamplerCubeArray", "isamplerCubeArray"]),
     (Capability::ImageCubeArray, "imageCubeArray", &["imageCubeArray", "uimageCubeArray", "iimageCubeArray"]),
+    // Elements of arrays that are chosen by a number that changes, from draw to draw, or from pixel to pixel.
     (Capability::SampledImageArrayDynamicIndexing, indexing::SAMPLED, &[]),
     (Capability::StorageImageArrayDynamicIndexing, indexing::STORAGE, &[]),
     (Capability::SampledImageArrayNonUniformIndexing, "shaderSampledImageArrayNonUniformIndexing", &["nonuniformEXT"]),
     (Capability::StorageImageArrayNonUniformIndexing, "shaderStorageImageArrayNonUniformIndexing", &["nonuniformEXT"]),
+    // Numbers that don't have 32 bits.
+    (Capability::Float64, "shaderFloat64", &["double", "dvec", "dmat"]),
+    (Capability::Int64, "shaderInt64", INT64),
+    // Shared variables need one more feature: see `needs`.
+    (Capability::Int64Atomics, "shaderBufferInt64Atomics", &["atomic"]),
+    (Capability::Int16, "shaderInt16", BITS_16),
+    (Capability::Float16, "shaderFloat16", &["float16", "f16vec", "f16mat"]),
+    (Capability::Int8, "shaderInt8", BITS_8),
+    (Capability::StorageBuffer16BitAccess, "storageBuffer16BitAccess", BITS_16),
+    (Capability::UniformAndStorageBuffer16BitAccess, "uniformAndStorageBuffer16BitAccess", BITS_16),
+    (Capability::StorageBuffer8BitAccess, "storageBuffer8BitAccess", BITS_8),
+    (Capability::UniformAndStorageBuffer8BitAccess, "uniformAndStorageBuffer8BitAccess", BITS_8),
+    // Images and draws.
+    (Capability::StorageImageReadWithoutFormat, "shaderStorageImageReadWithoutFormat", WITHOUT_FORMAT),
+    (Capability::StorageImageWriteWithoutFormat, "shaderStorageImageWriteWithoutFormat", WITHOUT_FORMAT),
+    (Capability::ImageGatherExtended, "shaderImageGatherExtended", &["textureGather"]),
+    (Capability::DrawParameters, "shaderDrawParameters", &["gl_BaseVertex", "gl_BaseInstance", "gl_DrawID"]),
+    (Capability::Geometry, "geometryShader", &["gl_PrimitiveID", "gl_Layer"]),
+    (Capability::DotProduct, DOT_PRODUCTS.0, DOT_PRODUCTS.1),
+    (Capability::DotProductInputAll, DOT_PRODUCTS.0, DOT_PRODUCTS.1),
+    (Capability::DotProductInput4x8Bit, DOT_PRODUCTS.0, DOT_PRODUCTS.1),
+    (Capability::DotProductInput4x8BitPacked, DOT_PRODUCTS.0, DOT_PRODUCTS.1),
+    (Capability::VulkanMemoryModel, "vulkanMemoryModel", &["GL_KHR_memory_scope_semantics"]),
+    (
+        Capability::VulkanMemoryModelDeviceScope,
+        "vulkanMemoryModelDeviceScope",
+        &["gl_ScopeDevice", "atomic", "coherent"],
+    ),
+    // Subgroups.
+    (Capability::GroupNonUniformVote, "subgroupSupportedOperations.VOTE", &["subgroupA"]),
+    (Capability::GroupNonUniformArithmetic, "subgroupSupportedOperations.ARITHMETIC", SUBGROUPS),
+    (Capability::GroupNonUniformBallot, "subgroupSupportedOperations.BALLOT", SUBGROUPS),
+    (Capability::GroupNonUniformShuffle, "subgroupSupportedOperations.SHUFFLE", &["subgroupShuffle"]),
+    (
+        Capability::GroupNonUniformShuffleRelative,
+        "subgroupSupportedOperations.SHUFFLE_RELATIVE",
+        &["subgroupShuffleUp", "subgroupShuffleDown"],
+    ),
+    (Capability::GroupNonUniformClustered, "subgroupSupportedOperations.CLUSTERED", &["subgroupClustered"]),
+    (Capability::GroupNonUniformQuad, "subgroupSupportedOperations.QUAD", &["subgroupQuad"]),
 ];
 
-/// Capabilities that only compute shaders may need: Vulkan 1.1 promises them `subgroupElect`, `subgroupBarrier` and the like.
-const COMPUTE: [Capability; 1] = [Capability::GroupNonUniform];
+const SUBGROUPS: &[&str] = &["subgroup", "gl_Subgroup", "GL_KHR_shader_subgroup"];
 
 /// More capabilities, of shaders that draw for both eyes at once.
 const FOR_BOTH_EYES: [Capability; 4] =
@@ -53,48 +98,7 @@ const FOR_BOTH_EYES: [Capability; 4] =
 /// A feature that isn't supported: capabilities, how words of GLSL begin that need them, and what to write instead.
 type UnsupportedFeature = (&'static [Capability], &'static [&'static str], &'static str);
 
-const SUBGROUPS: &[&str] = &["subgroup", "gl_Subgroup", "GL_KHR_shader_subgroup"];
-
 const UNSUPPORTED: &[UnsupportedFeature] = &[
-    (&[Capability::Float64], &["double", "dvec", "dmat"], "64-bit floating point: write `float`"),
-    (
-        &[Capability::Int64, Capability::Int16, Capability::Int8],
-        &[
-            "int64", "uint64", "i64vec", "u64vec", "int16", "uint16", "i16vec", "u16vec", "int8", "uint8", "i8vec",
-            "u8vec",
-        ],
-        "integers of another size than 32 bits: write `int` or `uint`",
-    ),
-    (&[Capability::Float16], &["float16", "f16vec", "f16mat"], "16-bit floating point: write `float`"),
-    (
-        &[Capability::StorageImageReadWithoutFormat, Capability::StorageImageWriteWithoutFormat],
-        &["image1D", "image2D", "image3D", "imageCube", "uimage", "iimage"],
-        "a storage image without a format: name that of the pass's image, such as `layout(rgba16f)`",
-    ),
-    (
-        &[Capability::GroupNonUniform],
-        SUBGROUPS,
-        "subgroups in a stage that draws, where not every device has them: use them in a compute shader",
-    ),
-    (
-        &[
-            Capability::GroupNonUniformVote,
-            Capability::GroupNonUniformArithmetic,
-            Capability::GroupNonUniformBallot,
-            Capability::GroupNonUniformShuffle,
-            Capability::GroupNonUniformShuffleRelative,
-            Capability::GroupNonUniformClustered,
-            Capability::GroupNonUniformQuad,
-        ],
-        SUBGROUPS,
-        "operations of subgroups that not every device has: Vulkan promises `subgroupElect`, `subgroupBarrier` and \
-         `subgroupMemoryBarrier` alone; use `shared` variables",
-    ),
-    (
-        &[Capability::Geometry],
-        &["gl_PrimitiveID", "gl_Layer"],
-        "numbers of primitives and layers: pass what tells them apart from the vertex stage, as `flat`",
-    ),
     (
         &[Capability::ShaderLayer, Capability::ShaderViewportIndexLayerEXT, Capability::MultiViewport],
         &["gl_Layer", "gl_ViewportIndex"],
@@ -104,16 +108,6 @@ const UNSUPPORTED: &[UnsupportedFeature] = &[
         &[Capability::ClipDistance, Capability::CullDistance],
         &["gl_ClipDistance", "gl_CullDistance"],
         "clip and cull distances: use `discard` in the fragment stage",
-    ),
-    (
-        &[Capability::DrawParameters],
-        &["gl_BaseVertex", "gl_BaseInstance", "gl_DrawID"],
-        "parameters of draws: use `gl_VertexIndex` and `gl_InstanceIndex`",
-    ),
-    (
-        &[Capability::ImageGatherExtended],
-        &["textureGather"],
-        "gathers with offsets that vary or differ: use `textureGatherOffset` with a constant, or `texelFetch`",
     ),
     (
         &[Capability::RuntimeDescriptorArray],
@@ -146,28 +140,38 @@ pub(super) fn check_capabilities(
     stage: ShaderStage,
     both_eyes: bool,
 ) -> Result<Vec<Feature>, RefusedStage> {
-    let needed = module.module.capabilities.iter().filter_map(|it| match it.operands.first() {
-        Some(Operand::Capability(capability)) => Some(*capability),
-        _ => None,
-    });
-    let feature = |it: &Capability| {
-        let found = OF_DEVICES.iter().find(|(capability, ..)| capability == it);
-        found.map(|(_, name, words)| Feature { name, words: Words::Beginning(words) })
-    };
-    let features = needed.clone().filter_map(|it| feature(&it)).collect();
-    let allowed = |it: &Capability| {
-        EVERYWHERE.contains(it)
-            || feature(it).is_some()
-            || stage.facts().has_workgroups && COMPUTE.contains(it)
-            || both_eyes && FOR_BOTH_EYES.contains(it)
-    };
-    // The most exact is said: `subgroupBallot` needs what all operations of subgroups need, too.
-    let Some(capability) = needed.filter(|it| !allowed(it)).max_by_key(|it| *it != Capability::GroupNonUniform) else {
-        return Ok(features);
-    };
+    let allowed = |it: Capability| EVERYWHERE.contains(&it) || both_eyes && FOR_BOTH_EYES.contains(&it);
+    let mut features = Vec::new();
+    for capability in module.capabilities().filter(|it| !allowed(*it)) {
+        match of_devices(capability, stage) {
+            Some(needed) => features.extend(needed),
+            None => return Err(refused(capability)),
+        }
+    }
+    Ok(features)
+}
+
+/// The features that a device must have for a capability of a stage; `None`: it isn't supported.
+fn of_devices(capability: Capability, stage: ShaderStage) -> Option<Vec<Feature>> {
+    let row = OF_DEVICES.iter().find(|(known, ..)| *known == capability);
+    let feature = |name, words| Feature { name, words: Words::Beginning(words) };
+    let facts = stage.facts();
+    match (capability, row) {
+        (Capability::GroupNonUniform, _) => {
+            Some(facts.subgroups.map(|name| feature(name, SUBGROUPS)).into_iter().collect())
+        }
+        (Capability::GroupNonUniformQuad, Some((_, name, words))) if facts.places_vertices => {
+            Some(vec![feature(name, words), feature("subgroupQuadOperationsInAllStages", words)])
+        }
+        (_, row) => row.map(|(_, name, words)| vec![feature(name, words)]),
+    }
+}
+
+/// Says that a capability isn't supported, and what to write instead.
+fn refused(capability: Capability) -> RefusedStage {
     let needs = |what: &str| format!("it needs SPIR-V's capability {}, which isn't supported{what}", named(capability));
-    Err(match UNSUPPORTED.iter().find(|(capabilities, ..)| capabilities.contains(&capability)) {
+    match UNSUPPORTED.iter().find(|(capabilities, ..)| capabilities.contains(&capability)) {
         Some((_, words, what)) => RefusedStage::beginning(words, needs(&format!(": {what}"))),
         None => needs("").into(),
-    })
+    }
 }

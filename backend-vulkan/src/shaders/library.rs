@@ -53,9 +53,8 @@ pub struct CompiledCompute {
 
 /// Finds, compiles and reflects shaders. Compiling takes the feature `shader-compiler`: see [`ShaderLibrary::with_precompiled`].
 ///
-/// The shader `NAME` of a draw is `NAME.frag` with `NAME.vert`, or without one with the vertex shader of its kind of
-/// draw: `objects.vert`, `sky.vert`, `full_screen.vert` (custom draws too) or `vertices.vert` (indirect draws too). The
-/// compute shader `NAME` is `NAME.comp`.
+/// The shader `NAME` of a draw is `NAME.frag` with `NAME.vert`, or without one with the
+/// [vertex shader of its kind of draw](Draw::usual_vertex_shader). The compute shader `NAME` is `NAME.comp`.
 ///
 /// A pipeline's file that names a shader has its own beside it: `NAME` in `effects/glow.ron` is the shader `effects/NAME`
 /// if there is one. Else it is looked for in the folders in their order, then among the shipped texts; so is the usual

@@ -2,7 +2,7 @@
 
 use framewright_graph::shader::MatrixLayout;
 use rspirv::dr::{Instruction, Module, Operand};
-use rspirv::spirv::{Decoration, Op, StorageClass};
+use rspirv::spirv::{Capability, Decoration, Op, StorageClass};
 use std::collections::HashMap;
 
 /// A module, indexed. Types may be nested as deep and as wide as they like: nothing here calls itself for what a type is made of.
@@ -83,7 +83,7 @@ impl<'m> IndexedModule<'m> {
         self.sizes.get(&ty).copied().unwrap_or_default()
     }
 
-    /// Bytes that a variable of a type takes, with each scalar in four; 0 for what isn't a type.
+    /// Bytes that a variable of a type takes, without padding; 0 for what isn't a type.
     pub(super) fn own_bytes(&self, ty: u32) -> u64 {
         self.sizes(ty).own_bytes
     }
@@ -106,7 +106,8 @@ impl<'m> IndexedModule<'m> {
     fn measured(&self, it: &Instruction) -> u64 {
         let element = || id(it, 0).map_or(0, |element| self.own_bytes(element));
         match it.class.opcode {
-            Op::TypeBool | Op::TypeInt | Op::TypeFloat => 4,
+            Op::TypeInt | Op::TypeFloat => u64::from(bits(it) / 8),
+            Op::TypeBool => 4,
             Op::TypeVector | Op::TypeMatrix => {
                 element().saturating_mul(it.operands.get(1).and_then(number).unwrap_or(0).into())
             }
@@ -121,8 +122,13 @@ impl<'m> IndexedModule<'m> {
 
     fn located(&self, it: &Instruction) -> u32 {
         let element = || id(it, 0).map_or(1, |element| self.sizes(element).locations);
+        let count = || it.operands.get(1).and_then(number).unwrap_or(1);
         match it.class.opcode {
-            Op::TypeMatrix => it.operands.get(1).and_then(number).unwrap_or(1),
+            // Two numbers of 64 bits fill a location.
+            Op::TypeVector if id(it, 0).and_then(|scalar| self.global(scalar)).is_some_and(|it| bits(it) == 64) => {
+                count().div_ceil(2)
+            }
+            Op::TypeMatrix => count().saturating_mul(element()),
             Op::TypeArray => self.array_length(it).saturating_mul(element()),
             Op::TypeStruct => {
                 let members = it.operands.iter().filter_map(Operand::id_ref_any);
@@ -153,7 +159,7 @@ impl<'m> IndexedModule<'m> {
     /// Bytes that a block's member of type `ty` spans.
     fn member_bytes(&self, ty: u32, matrix: Option<MatrixLayout>) -> u32 {
         let Some(it) = self.global(ty) else { return 0 };
-        let scalar_bytes = |it: &Instruction| it.operands.first().and_then(number).unwrap_or(32) / 8;
+        let scalar_bytes = |it: &Instruction| bits(it) / 8;
         match it.class.opcode {
             Op::TypeVector => {
                 let element = id(it, 0).and_then(|element| self.global(element)).map_or(0, scalar_bytes);
@@ -179,6 +185,14 @@ impl<'m> IndexedModule<'m> {
             Op::TypeStruct => self.block_end(ty),
             _ => scalar_bytes(it),
         }
+    }
+
+    /// The capabilities that it names.
+    pub(super) fn capabilities(&self) -> impl Iterator<Item = Capability> + Clone {
+        self.module.capabilities.iter().filter_map(|it| match it.operands.first() {
+            Some(Operand::Capability(capability)) => Some(*capability),
+            _ => None,
+        })
     }
 
     /// The type, constant or global variable `id`.
@@ -266,9 +280,17 @@ impl<'m> IndexedModule<'m> {
         let element = || id(it, 0).unwrap_or(0);
         match it.class.opcode {
             Op::TypeVector => {
-                let component = self.scalar_name(element());
-                let prefix = component.chars().next().filter(|_| component != "float");
-                let prefix = prefix.map_or_else(String::new, String::from);
+                let prefix = match self.scalar_name(element()) {
+                    "float" => "",
+                    "int64_t" => "i64",
+                    "uint64_t" => "u64",
+                    "float16_t" => "f16",
+                    "int16_t" => "i16",
+                    "uint16_t" => "u16",
+                    "int8_t" => "i8",
+                    "uint8_t" => "u8",
+                    component => component.get(..1).unwrap_or_default(),
+                };
                 format!("{prefix}vec{}", it.operands.get(1).and_then(number).unwrap_or(0))
             }
             Op::TypeMatrix => {
@@ -285,10 +307,21 @@ impl<'m> IndexedModule<'m> {
         let Some(it) = self.global(ty) else { return "?" };
         match it.class.opcode {
             Op::TypeBool => "bool",
-            Op::TypeInt if it.operands.get(1).and_then(number) == Some(1) => "int",
-            Op::TypeInt => "uint",
-            Op::TypeFloat if it.operands.first().and_then(number) == Some(64) => "double",
-            Op::TypeFloat => "float",
+            Op::TypeInt => match (bits(it), it.operands.get(1).and_then(number) == Some(1)) {
+                (64, true) => "int64_t",
+                (64, false) => "uint64_t",
+                (16, true) => "int16_t",
+                (16, false) => "uint16_t",
+                (8, true) => "int8_t",
+                (8, false) => "uint8_t",
+                (_, true) => "int",
+                (_, false) => "uint",
+            },
+            Op::TypeFloat => match bits(it) {
+                64 => "double",
+                16 => "float16_t",
+                _ => "float",
+            },
             _ => self.name(ty),
         }
     }
@@ -335,6 +368,11 @@ pub(super) fn number(operand: &Operand) -> Option<u32> {
         Operand::LiteralBit32(number) => Some(*number),
         _ => None,
     }
+}
+
+/// Bits of a scalar type.
+fn bits(scalar: &Instruction) -> u32 {
+    scalar.operands.first().and_then(number).unwrap_or(32)
 }
 
 /// Storage class of a variable.

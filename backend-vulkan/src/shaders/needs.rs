@@ -6,7 +6,7 @@ use super::{block_layout, indexing};
 use crate::base::ShaderStage;
 use framewright_graph::device::{Limit, NeedKind};
 use framewright_graph::shader::Binding;
-use rspirv::spirv::{Op, StorageClass};
+use rspirv::spirv::{Capability, Op, StorageClass};
 
 /// A feature that a device must have, and the words of the stage's text that show where.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -34,6 +34,7 @@ pub(super) fn needs(
     features.extend(indexing::features(module));
     features.extend(block_layout::features(module));
     features.extend(initialised(module));
+    features.extend(wide_and_narrow(module));
     features.sort_by_key(|feature| feature.name);
     // Where two ways to tell of a feature agree, the one that knows the words stays.
     features.dedup_by(|later, kept| {
@@ -95,4 +96,20 @@ fn initialised(module: &IndexedModule<'_>) -> Option<Feature> {
     let (id, _) = module.variables().find(is_initialised)?;
     let words = Words::Whole(module.name(id).to_owned());
     Some(Feature { name: "shaderZeroInitializeWorkgroupMemory", words })
+}
+
+/// What numbers that don't have 32 bits need together with other things that the stage does.
+fn wide_and_narrow(module: &IndexedModule<'_>) -> Vec<Feature> {
+    let needed = |wanted| module.capabilities().any(|it| it == wanted);
+    let mut features = Vec::new();
+    let widths = [Capability::Int64, Capability::Float64, Capability::Int16, Capability::Float16, Capability::Int8];
+    if needed(Capability::GroupNonUniform) && widths.into_iter().any(needed) {
+        features.push(Feature { name: "shaderSubgroupExtendedTypes", words: Words::Beginning(&["subgroup"]) });
+    }
+    // Which of its atomic operations are on shared variables isn't looked at.
+    let shares = || module.variables().any(|(_, it)| storage_class(it) == Some(StorageClass::Workgroup));
+    if needed(Capability::Int64Atomics) && shares() {
+        features.push(Feature { name: "shaderSharedInt64Atomics", words: Words::Beginning(&["atomic"]) });
+    }
+    features
 }

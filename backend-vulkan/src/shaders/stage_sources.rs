@@ -6,6 +6,7 @@ use super::module_file::ModuleFile;
 use super::text;
 use crate::base::ShaderStage;
 use framewright_graph::base::{FilePath, NoFile, unix_lines};
+use framewright_graph::frame::Draw;
 use framewright_graph::shader::{ShaderProblem, StageName};
 use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
@@ -64,7 +65,7 @@ impl StageSources {
             return beside.and_then(found).or_else(|| found(FilePath::Own(file))).into_iter().collect();
         }
         let stages = ShaderStage::ALL.map(|stage| stage.file_of(name));
-        let usual = USUAL_VERTEX_SHADERS.map(str::to_owned);
+        let usual = Draw::usual_vertex_shaders().map(str::to_owned);
         let beside = stages.iter().filter_map(|file| from.beside(file).ok());
         let beside = beside.filter(|file| file.folder().is_empty() || self.files.may_read(file.folder()));
         let places = beside.chain(stages.iter().chain(&usual).map(|file| FilePath::Own((&**file).into())));
@@ -136,6 +137,3 @@ pub(super) fn file_of(name: &StageName, stage: ShaderStage) -> String {
         StageName::Spirv { file, .. } => file.to_string(),
     }
 }
-
-/// All that [`Draw::usual_vertex_shader`] gives.
-const USUAL_VERTEX_SHADERS: [&str; 4] = ["objects.vert", "sky.vert", "full_screen.vert", "vertices.vert"];

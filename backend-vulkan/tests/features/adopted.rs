@@ -9,7 +9,8 @@ use framewright_graph::frame::{Draw, Frame};
 use framewright_graph::vulkan::{Format, Subresources};
 use framewright_vulkan::ash::{self, vk};
 use framewright_vulkan::gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
-use framewright_vulkan::{AdoptedDevice, Device, Error, Executor, ExecutorOptions};
+use framewright_vulkan::{AdoptedDevice, Device, DeviceFeatures, Error, Executor, ExecutorOptions};
+use std::ffi::CStr;
 use std::sync::{Arc, Mutex};
 
 /// The features that the program switches on: by the structures of Vulkan's versions.
@@ -52,10 +53,17 @@ impl ByVersion {
 
 /// A device of the same instance, made as a program would: with one queue of the first family, which draws and computes.
 fn made(like: &Device, features: &mut vk::PhysicalDeviceFeatures2<'_>) -> ash::Device {
+    made_with(like, features, &[])
+}
+
+/// The same with extensions.
+fn made_with(like: &Device, features: &mut vk::PhysicalDeviceFeatures2<'_>, extensions: &[&CStr]) -> ash::Device {
+    let names: Vec<_> = extensions.iter().map(|name| name.as_ptr()).collect();
     let (instance, physical) = like.raw_physical();
     let queues = [vk::DeviceQueueCreateInfo::default().queue_family_index(0).queue_priorities(&[1.0])];
-    let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues).push_next(features);
-    // SAFETY: the physical device belongs to the instance, and has these features, which are chained.
+    let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues).enabled_extension_names(&names);
+    let info = info.push_next(features);
+    // SAFETY: the physical device belongs to the instance, and has these extensions and features, which are chained.
     unsafe { instance.create_device(physical, &info, None) }.expect("a device")
 }
 
@@ -64,6 +72,18 @@ fn adopted(
     like: &Device,
     raw: &ash::Device,
     features: &vk::PhysicalDeviceFeatures2<'_>,
+    families: &[u32],
+    allocator: Option<&Arc<Mutex<Allocator>>>,
+) -> Result<Device, Error> {
+    adopted_with(like, raw, features, &[], families, allocator)
+}
+
+/// The same of a device with extensions.
+fn adopted_with(
+    like: &Device,
+    raw: &ash::Device,
+    features: &vk::PhysicalDeviceFeatures2<'_>,
+    extensions: &[&CStr],
     families: &[u32],
     allocator: Option<&Arc<Mutex<Allocator>>>,
 ) -> Result<Device, Error> {
@@ -76,7 +96,7 @@ fn adopted(
         instance_extensions: &[ash::ext::debug_utils::NAME],
         physical,
         device: raw,
-        device_extensions: &[],
+        device_extensions: extensions,
         features,
         queues: &queues,
         allocator: allocator.cloned(),
@@ -121,8 +141,24 @@ fn draws_with(like: &Device, features: &mut vk::PhysicalDeviceFeatures2<'_>) {
 #[test]
 fn a_device_of_the_program_draws_and_stays_the_programs() {
     on_each_driver(|like| {
+        draws_with(like, &mut ByVersion::all().chain());
+        // A program vouches for its own indices.
         let mut features = ByVersion::all();
+        features.core.robust_buffer_access = vk::FALSE;
         draws_with(like, &mut features.chain());
+        // All that is used of the device, local reads too.
+        let (instance, physical) = like.raw_physical();
+        // SAFETY: the physical device belongs to the instance.
+        let mut all = unsafe { DeviceFeatures::of(instance, physical) }.expect("a device that is enough");
+        let extensions = all.extensions().to_vec();
+        let mut chain = all.chain();
+        let raw = made_with(like, &mut chain, &extensions);
+        let device = adopted_with(like, &raw, &chain, &extensions, &[0], None).expect("it has all that is needed");
+        let [ours, own] = [&device, like].map(Device::profile);
+        assert_eq!((ours.features, ours.local_read), (own.features, own.local_read));
+        drop(device);
+        // SAFETY: the device is the program's again, and nothing made from it is left.
+        unsafe { raw.destroy_device(None) };
         // The same by the structures of the extensions that the features come from.
         let mut timeline = vk::PhysicalDeviceTimelineSemaphoreFeatures::default().timeline_semaphore(true);
         let mut queries = vk::PhysicalDeviceHostQueryResetFeatures::default().host_query_reset(true);
@@ -255,9 +291,9 @@ fn what_a_device_was_created_without_is_named() {
         assert_eq!(missing(without, &[0]), ["the feature dynamicRendering"]);
         let without = |it: &mut ByVersion| {
             it.v1_2.timeline_semaphore = vk::FALSE;
-            it.core.robust_buffer_access = vk::FALSE;
+            it.core.independent_blend = vk::FALSE;
         };
-        assert_eq!(missing(without, &[0]), ["the feature timelineSemaphore", "the feature robustBufferAccess"]);
+        assert_eq!(missing(without, &[0]), ["the feature timelineSemaphore", "the feature independentBlend"]);
         assert_eq!(missing(|_| (), &[]), ["a queue for graphics and compute"]);
         let error = Error::NotEnabled { device: "GPU".to_owned(), missing: missing(|_| (), &[]) };
         assert_eq!(

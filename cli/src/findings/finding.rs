@@ -14,24 +14,13 @@ pub(crate) struct Case {
 
 /// A finding.
 pub(crate) struct Finding {
-    pub(super) kind: Kind,
+    pub(super) code: Code,
     pub(super) message: String,
     /// Remarks and help, a line each.
     more: Vec<String>,
     pub(super) place: Option<FilePlace>,
     /// Other places that it is about, with their remarks.
     pub(super) related: Vec<(FilePlace, String)>,
-}
-
-/// The kind of a finding.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
-    /// The pipeline is wrong, or a device can't draw it.
-    Mistake,
-    /// A bound of the budget is exceeded.
-    Budget,
-    /// A Plan breaks its own rules.
-    Violation,
 }
 
 /// A place in a file as the user named it. Lines and columns count from 1.
@@ -41,26 +30,6 @@ pub(super) struct FilePlace {
     pub(super) column: u64,
     /// Line and column behind it.
     pub(super) end: [u64; 2],
-}
-
-impl Kind {
-    pub(super) const ALL: [Kind; 3] = [Kind::Mistake, Kind::Budget, Kind::Violation];
-
-    pub(super) fn id(self) -> &'static str {
-        match self {
-            Kind::Mistake => "mistake",
-            Kind::Budget => "budget",
-            Kind::Violation => "violation",
-        }
-    }
-
-    pub(super) fn words(self) -> &'static str {
-        match self {
-            Kind::Mistake => "The pipeline, its settings or its shaders are wrong, or a device can't draw it.",
-            Kind::Budget => "The frame takes more than the budget allows.",
-            Kind::Violation => "The Plan breaks its own rules, which is a mistake of framewright.",
-        }
-    }
 }
 
 impl Case {
@@ -73,7 +42,7 @@ impl Case {
     /// With violations of a Plan's rules.
     pub(crate) fn violations(mut self, violations: &[String]) -> Case {
         self.findings.extend(violations.iter().map(|violation| Finding {
-            kind: Kind::Violation,
+            code: Code::OWN_MISTAKE,
             message: violation.clone(),
             more: Vec::new(),
             place: None,
@@ -86,8 +55,8 @@ impl Case {
 impl Finding {
     fn of(mistake: &Value) -> Finding {
         let text = |value: &Value, name: &str| value[name].as_str().unwrap_or_default().to_owned();
-        let mut message = text(mistake, "message");
-        message.extend(mistake["code"].as_str().map(|code| format!(" [{code}]")));
+        let code = Code::find(&text(mistake, "code")).unwrap_or(Code::OWN_MISTAKE);
+        let message = format!("{} [{code}]", text(mistake, "message"));
         let labels = mistake["labels"].as_array().into_iter().flatten();
         let mut places: Vec<(FilePlace, String)> =
             labels.filter_map(|label| Some((FilePlace::of(label)?, text(label, "text")))).collect();
@@ -99,14 +68,13 @@ impl Finding {
             more.extend(Some(remark).filter(|remark| !remark.is_empty()));
         }
         more.extend(mistake["help"].as_str().map(|help| format!("help: {help}")));
-        let kind = if mistake["code"] == Code::OVER_BUDGET.to_string() { Kind::Budget } else { Kind::Mistake };
-        Finding { kind, message, more, place, related: places }
+        Finding { code, message, more, place, related: places }
     }
 
     /// A finding of one place, without remarks.
     #[cfg(test)]
-    pub(super) fn at(kind: Kind, message: String, place: FilePlace) -> Finding {
-        Finding { kind, message, more: Vec::new(), place: Some(place), related: Vec::new() }
+    pub(super) fn at(message: String, place: FilePlace) -> Finding {
+        Finding { code: Code::OWN_MISTAKE, message, more: Vec::new(), place: Some(place), related: Vec::new() }
     }
 
     /// The message with its remarks and all other places that it is about.

@@ -41,7 +41,7 @@ fn property(value: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::findings::finding::{Finding, Kind};
+    use crate::findings::finding::Finding;
     use serde::Deserialize;
 
     /// A finding, and the line that GitHub's own package writes for it.
@@ -66,7 +66,7 @@ mod tests {
         assert!(judged.len() > 5);
         for WorkflowLine { title, file, message, start_line, start_column, end_line, end_column, line } in judged {
             let place = FilePlace { file, line: start_line, column: start_column, end: [end_line, end_column] };
-            let finding = Finding::at(Kind::Mistake, message, place);
+            let finding = Finding::at(message, place);
             assert_eq!(github("p.ron", &[Case { name: title, findings: vec![finding] }]), line);
         }
     }

@@ -35,7 +35,7 @@ pub(super) fn junit(pipeline: &str, cases: &[Case]) -> String {
             xml,
             ">\n      <failure message=\"{}\" type=\"{}\">{}</failure>\n    </testcase>\n",
             escaped(&first.message),
-            first.kind.id(),
+            first.code,
             escaped(&told.join("\n\n"))
         );
     }

@@ -1,17 +1,19 @@
 //! Findings as SARIF 2.1.0, the Static Analysis Results Interchange Format of OASIS.
 
-use super::finding::{Case, FilePlace, Finding, Kind};
+use super::finding::{Case, FilePlace, Finding};
 use crate::system::text;
+use framewright_graph::base::Code;
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
 use serde_json::{Value, json};
+use std::collections::BTreeSet;
 
 /// Characters of a path that an URI doesn't hold as they are.
 const ESCAPED: &AsciiSet = &NON_ALPHANUMERIC.remove(b'/').remove(b'.').remove(b'_').remove(b'-').remove(b'~');
 
 pub(super) fn sarif(pipeline: &str, cases: &[Case]) -> serde_json::Result<String> {
-    let rules = Kind::ALL.map(|kind| json!({"id": kind.id(), "shortDescription": {"text": kind.words()}}));
-    let found =
-        cases.iter().flat_map(|case| case.findings.iter().map(move |finding| result(pipeline, &case.name, finding)));
+    let findings = || cases.iter().flat_map(|case| case.findings.iter().map(move |finding| (&case.name, finding)));
+    let codes: BTreeSet<Code> = findings().map(|(_, finding)| finding.code).collect();
+    let found = findings().map(|(case, finding)| result(pipeline, case, finding));
     text::json(&json!({
         "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
         "version": "2.1.0",
@@ -19,7 +21,7 @@ pub(super) fn sarif(pipeline: &str, cases: &[Case]) -> serde_json::Result<String
             "tool": {"driver": {
                 "name": "framewright",
                 "version": env!("CARGO_PKG_VERSION"),
-                "rules": rules,
+                "rules": codes.into_iter().map(rule).collect::<Vec<Value>>(),
             }},
             // Code hosts take one run of each id: files of several pipelines can be uploaded together.
             "automationDetails": {"id": format!("framewright check {pipeline}/")},
@@ -29,6 +31,16 @@ pub(super) fn sarif(pipeline: &str, cases: &[Case]) -> serde_json::Result<String
     }))
 }
 
+/// What code hosts show of a rule beside its findings.
+fn rule(code: Code) -> Value {
+    let explanation = code.explanation();
+    json!({
+        "id": code.to_string(),
+        "shortDescription": {"text": code.title()},
+        "help": {"text": explanation, "markdown": explanation},
+    })
+}
+
 fn result(pipeline: &str, case: &str, finding: &Finding) -> Value {
     let found_at = match &finding.place {
         Some(place) => location(place),
@@ -36,8 +48,7 @@ fn result(pipeline: &str, case: &str, finding: &Finding) -> Value {
         None => json!({"artifactLocation": {"uri": uri(pipeline)}, "region": {"startLine": 1}}),
     };
     let mut result = json!({
-        "ruleId": finding.kind.id(),
-        "ruleIndex": Kind::ALL.iter().position(|kind| *kind == finding.kind),
+        "ruleId": finding.code.to_string(),
         "level": "error",
         "message": {"text": plain(&format!("{}\n{case}", finding.text()))},
         "locations": [{"physicalLocation": found_at}],

@@ -104,11 +104,11 @@ fn ci_systems_are_told_each_finding_with_its_place() {
     assert_eq!(results.len(), 2);
     let region = &results[0]["locations"][0]["physicalLocation"];
     assert_eq!((&region["artifactLocation"]["uri"], &region["region"]["startLine"]), (&"first.ron".into(), &27.into()));
-    assert_eq!(results[0]["ruleId"], "budget");
+    assert_eq!(results[0]["ruleId"], "E1503");
     assert_eq!(results[0]["relatedLocations"][0]["physicalLocation"]["artifactLocation"]["uri"], "budget.ron");
     let xml = check("junit", 1);
     assert!(xml.contains("<testsuites tests=\"1\" failures=\"1\" errors=\"0\">"), "{xml}");
-    assert!(xml.contains("type=\"budget\">first.ron:27:32: the budget is exceeded: resolves 1"), "{xml}");
+    assert!(xml.contains("type=\"E1503\">first.ron:27:32: the budget is exceeded: resolves 1"), "{xml}");
     let github = check("github", 1);
     let first = github.lines().next().expect("a line");
     assert!(

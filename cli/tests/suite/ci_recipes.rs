@@ -141,14 +141,14 @@ fn each_planted_mistake_fails_and_leaves_what_shows_it() {
     assert!(said.out.contains("breaks with --set msaa=1"), "{}", said.out);
     assert!(said.out.contains("FAILED (exit code 1): first: variants and budget\n"), "{}", said.out);
     assert_eq!(said.out.matches("FAILED").count(), 1, "{}", said.out);
-    assert_eq!(rules(&place), ["mistake", "mistake"]);
+    assert_eq!(rules(&place), ["E0707", "E0707"]);
     assert!(result(&place, "junit/first.xml").contains("sample counts"));
     assert!(has(&place, "pictures/first.png") && has(&place, "pages/first.html"));
 
     // A pipeline that is no pipeline leaves its reports.
     place.file(pipeline, "Pipeline(version: 1");
     check(&place, &[pipeline], &[]).exits(1).mentions("pipelines/first.ron:1:");
-    assert_eq!(rules(&place), ["mistake"]);
+    assert_eq!(rules(&place), ["E0104"]);
     assert!(!has(&place, "pictures/first.png"));
 
     // A picture that is off: without a tone curve.

@@ -53,6 +53,7 @@ mod scene_notes;
 mod seen_alike;
 mod serving;
 mod settings;
+mod shader_features;
 mod shader_files;
 mod shader_interfaces;
 mod shipped_pictures;

@@ -1,11 +1,11 @@
 //! Accesses of a pass: its images and buffers, which part of each, and whether that part is read and written.
 
 use super::{
-    BufferRole, BufferUse, ColorTarget, DepthTarget, Draw, Image, ImageIndex, Pass, Resource, SampledImage, Storage,
-    TransferUse, Work,
+    BufferUse, ColorTarget, DepthTarget, Draw, Image, ImageIndex, Pass, Resource, SampledImage, Storage, TransferUse,
+    Work,
 };
 use crate::base::Span;
-use crate::vulkan::{AccessKind, Format, Subresources};
+use crate::vulkan::{Format, Subresources};
 
 /// An image or a buffer that a pass names, by the role in which it does.
 #[derive(Debug, Clone, Copy)]
@@ -205,64 +205,10 @@ impl Access<'_> {
     }
 }
 
-impl BufferRole {
-    /// The kind of access.
-    pub(crate) const fn kind(self) -> AccessKind {
-        match self {
-            BufferRole::Uniform => AccessKind::Uniform,
-            BufferRole::Storage { .. } => AccessKind::Storage,
-            BufferRole::Vertex => AccessKind::Vertex,
-            BufferRole::Index => AccessKind::Index,
-            BufferRole::Indirect => AccessKind::Indirect,
-        }
-    }
-
-    /// Whether shaders access it, in stages that the pass says.
-    #[must_use]
-    pub const fn is_of_shaders(self) -> bool {
-        match self {
-            BufferRole::Uniform | BufferRole::Storage { .. } => true,
-            BufferRole::Vertex | BufferRole::Index | BufferRole::Indirect => false,
-        }
-    }
-
-    /// Whether it holds the counts of a draw or dispatch.
-    #[must_use]
-    pub const fn is_indirect(self) -> bool {
-        matches!(self, BufferRole::Indirect)
-    }
-
-    /// Whether it holds indices.
-    #[must_use]
-    pub const fn is_index(self) -> bool {
-        matches!(self, BufferRole::Index)
-    }
-
-    /// Whether earlier contents are read or kept.
-    #[must_use]
-    pub const fn reads(self) -> bool {
-        !matches!(self, BufferRole::Storage { read: false, .. })
-    }
-
-    /// Whether the buffer is written.
-    #[must_use]
-    pub const fn writes(self) -> bool {
-        matches!(self, BufferRole::Storage { write: true, .. })
-    }
-
-    /// The `read` of a storage block, which can be changed by this, and its `write`; `None` for other roles.
-    pub(crate) const fn storage_mut(&mut self) -> Option<(&mut bool, bool)> {
-        match self {
-            BufferRole::Storage { read, write } => Some((read, *write)),
-            BufferRole::Uniform | BufferRole::Vertex | BufferRole::Index | BufferRole::Indirect => None,
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::frame::{Blend, BufferIndex};
+    use crate::frame::{Blend, BufferIndex, BufferRole};
     use crate::vulkan::{CompareOp, Stages};
 
     #[test]

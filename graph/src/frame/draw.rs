@@ -46,6 +46,12 @@ struct DrawRow {
 }
 
 impl Draw {
+    /// All that [`Draw::usual_vertex_shader`] gives.
+    #[must_use]
+    pub const fn usual_vertex_shaders() -> [&'static str; 4] {
+        ["objects.vert", "sky.vert", "full_screen.vert", "vertices.vert"]
+    }
+
     /// The row of its kind.
     const fn row(self) -> DrawRow {
         const NONE: DrawRow = DrawRow {

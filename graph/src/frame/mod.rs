@@ -4,6 +4,7 @@
 //! It is plain data, so an embedding program may also build it without any file.
 
 mod access;
+mod buffer_role;
 mod capture;
 pub mod change;
 pub(crate) mod check;
@@ -26,6 +27,7 @@ mod view;
 mod work;
 
 pub(crate) use access::{Access, Effect, VisitAccess};
+pub use buffer_role::BufferRole;
 pub use capture::{Capture, Captures, capture_name};
 pub use decided_property::{DecidedBy, DecidedProperty, NamedValue, Property, Subject};
 pub use draw::{Cascade, Draw, DrawList, Metres, Share};
@@ -41,9 +43,7 @@ pub use resource::{Buffer, ChosenFormat, Image, Lifetime, Resolve, ResolveWay, S
 pub use texture::{
     ColorSpace, NoTextures, TextureFile, TextureInfo, TextureProblem, Textures, format_problem, picture_extent,
 };
-pub use uses::{
-    Blend, BufferRole, BufferUse, ColorTarget, DepthTarget, Face, SampledImage, StencilState, Storage, TransferUse,
-};
+pub use uses::{Blend, BufferUse, ColorTarget, DepthTarget, Face, SampledImage, StencilState, Storage, TransferUse};
 pub use view::{Allowances, Eye, EyeForm, Stereo, View, ViewEye, ViewIndex};
 pub use work::{Groups, Work};
 

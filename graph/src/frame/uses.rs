@@ -1,6 +1,6 @@
 //! How a pass names the images and buffers that it uses: sampled, as storage, as attachment, as buffer, by transfer.
 
-use super::{BufferIndex, Eye, ImageIndex, Resource};
+use super::{BufferIndex, BufferRole, Eye, ImageIndex, Resource};
 use crate::base::Span;
 use crate::vulkan::{Aspects, CompareOp, Filter, Format, ImageShape, Sampler, Stages, StencilOp, Subresources};
 use serde::{Deserialize, Serialize};
@@ -183,27 +183,6 @@ pub struct BufferUse {
     pub role: BufferRole,
     /// Shader stages that access it; empty for buffers that no shader names.
     pub stages: Stages,
-}
-
-/// The role of a buffer in a pass.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum BufferRole {
-    /// A uniform block.
-    Uniform,
-    /// A storage block.
-    Storage {
-        /// Whether earlier contents are read or kept. A storage write that is not `read` replaces the buffer whole.
-        read: bool,
-        /// Whether it is written.
-        write: bool,
-    },
-    /// Vertex attributes.
-    Vertex,
-    /// Indices of 32 bits.
-    Index,
-    /// Counts of a draw or dispatch.
-    Indirect,
 }
 
 /// An image or buffer that a copy, blit, fill or custom pass reads or writes by transfer.

@@ -7,7 +7,7 @@ use std::fmt::{self, Display, Formatter};
 use std::sync::Arc;
 
 /// Why the compiler decided something. It is shown, written to JSON and compared as its sentence. Comparing puts the sentences
-/// together.
+/// together only where their parts differ.
 #[derive(Debug, Clone)]
 pub enum Reason {
     /// An attachment is loaded and stored so.
@@ -44,7 +44,7 @@ pub enum Reason {
 }
 
 /// The next use of an attachment's contents.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub enum NextUse {
     /// A pass of this name uses them.
     Pass(Arc<str>),
@@ -128,7 +128,29 @@ impl From<&str> for Reason {
 
 impl PartialEq for Reason {
     fn eq(&self, other: &Reason) -> bool {
-        self.to_string() == other.to_string()
+        self.has_parts_of(other) || self.to_string() == other.to_string()
+    }
+}
+
+impl Reason {
+    /// Whether both are put together of the same parts. If not, their sentences may be the same.
+    fn has_parts_of(&self, other: &Reason) -> bool {
+        use Reason::{LoadStore, ReadsLocally, Sentence, SharesAttachments};
+        match (self, other) {
+            (
+                LoadStore { load, first, untouched, store, next },
+                LoadStore { load: load_2, first: first_2, untouched: untouched_2, store: store_2, next: next_2 },
+            ) => (load, first, untouched, store, next) == (load_2, first_2, untouched_2, store_2, next_2),
+            (
+                SharesAttachments { attachments, before, bytes },
+                SharesAttachments { attachments: attachments_2, before: before_2, bytes: bytes_2 },
+            ) => (attachments, before, bytes) == (attachments_2, before_2, bytes_2),
+            (ReadsLocally { image, bytes }, ReadsLocally { image: image_2, bytes: bytes_2 }) => {
+                (image, bytes) == (image_2, bytes_2)
+            }
+            (Sentence(sentence), Sentence(other)) => sentence == other,
+            _ => false,
+        }
     }
 }
 

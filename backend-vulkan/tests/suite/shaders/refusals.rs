@@ -67,10 +67,11 @@ fn numbers_and_features_beyond_every_devices_are_refused() {
         let Err(ShaderProblem::Unsupported { what }) = at(17 - locations) else { panic!("{far}") };
         assert!(what.ends_with("test.vert:2: `far` at location 16: locations go up to 15"), "{what}");
     }
-    let double = format!("{WHITE} double x = color.x; color.x = float(x * x); }}");
+    let clip = format!("{WHITE} color.x = gl_ClipDistance[0]; }}");
     assert_eq!(
-        what(&double),
-        "2: it needs SPIR-V's capability Float64, which isn't supported: 64-bit floating point: write `float`"
+        what(&clip),
+        "2: it needs SPIR-V's capability ClipDistance, which isn't supported: clip and cull distances: use `discard` in the \
+         fragment stage"
     );
 }
 

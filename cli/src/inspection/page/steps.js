@@ -5,8 +5,7 @@ function stepsView(model) {
     const at = line.about.step;
     const details = element("details", { "data-key": line.key });
     const moved = model.moved[at] ? movedSum(model.moved[at]) : 0;
-    const own = link(line.key, "step " + at);
-    details.append(element("summary", {}, own, outlineLine(model, { ...line, text: line.text.replace(/^step \d+/, "") }), moved > 0 ? element("span", { class: "faint" }, " moves " + bytes(moved)) : null));
+    details.append(element("summary", {}, outlineLine(model, line), " ", link(line.key, "select"), moved > 0 ? element("span", { class: "faint" }, " moves " + bytes(moved)) : null));
     details.addEventListener("toggle", () => {
       if (details.open && details.children.length === 1) {
         details.append(outlineList(model, line.parts) || element("p", {}, "nothing more"));

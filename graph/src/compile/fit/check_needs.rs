@@ -2,7 +2,7 @@
 
 use crate::base::{Code, Diagnostic};
 use crate::device::{Abilities, Limit, NeedKind, Profile};
-use crate::frame::{BufferRole, Draw, Frame, Lifetime, Pass};
+use crate::frame::{Draw, Frame, Lifetime, Pass};
 use crate::plan::{Note, NoteKind};
 use crate::vulkan::State;
 
@@ -83,11 +83,7 @@ fn buffers(frame: &Frame, live: &[u32], device: &Profile, errors: &mut Vec<Diagn
     }
     for pass in live.iter().map(|pass| &frame.passes[*pass as usize]) {
         for used in &pass.buffers {
-            let (limit, what) = match used.role {
-                BufferRole::Uniform => (Limit::UniformBytes, "uniform block"),
-                BufferRole::Storage { .. } => (Limit::StorageBytes, "storage block"),
-                BufferRole::Vertex | BufferRole::Index | BufferRole::Indirect => continue,
-            };
+            let Some((limit, what)) = used.role.limit() else { continue };
             let buffer = &frame.buffers[used.buffer.0 as usize];
             if buffer.bytes > limits.of(limit) && buffer.bytes <= limits.buffer_bytes {
                 let what =

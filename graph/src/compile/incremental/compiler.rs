@@ -18,7 +18,8 @@ use std::sync::Arc;
 /// - The very same frame (by its `Arc`), device and options: nothing is compared but these three, and nothing is allocated.
 ///   A frame behind an `Arc` doesn't change, and the last one is kept, so no other frame can have its address.
 /// - An equal frame: it is compared, pass by pass.
-/// - Other values (clear and fill values, parameters, counts of workgroups, texts of settings): they replace the old ones.
+/// - Other values (clear values of colour, depth and stencil, fill values, parameters, counts of workgroups, shifts of views, texts of
+///   settings): they replace the old ones.
 /// - Anything else, other sizes among it: the frame is compiled anew.
 #[derive(Debug, Default)]
 pub struct Compiler {

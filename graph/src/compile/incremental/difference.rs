@@ -1,4 +1,6 @@
-//! The difference between two frames.
+//! The difference between two frames, and which differences are mere values: those that no decision of the compiler depends on.
+//! `compile/emit/revise.rs` puts such values into the Plan that there is. Whether an executor stays is the rule of
+//! [`Plan::differs_beyond_values`](crate::plan::Plan::differs_beyond_values).
 
 use crate::frame::{
     Buffer, ColorTarget, DepthTarget, Frame, Groups, Image, Lifetime, Pass, SampledImage, StencilState, Storage, View,

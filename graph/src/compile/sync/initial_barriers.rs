@@ -3,6 +3,8 @@
 //! Each waits for the state in which the frame finds the subresource, or for the accesses of the resource that had its memory
 //! before. In the latter case the barrier names the *stages* of those accesses, and a memory barrier (`aliasing_barriers`)
 //! names their writes. The first owner of memory in a frame comes after the last owner in the frame before.
+//!
+//! What outlives the frame, such as a history, is found in its state `before`. The backend brings it there once, before the first frame.
 
 use super::aliasing_barriers::{AliasedWrite, Source};
 use super::last_accesses::LastAccess;

@@ -33,3 +33,27 @@ fn meaning(word: AccessKind, format: Option<Format>, when: StateTime) -> State {
     let accesses = word.accesses(!host || when == StateTime::After, !host || when == StateTime::Before);
     State { stages: word.stages(), accesses, layout }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::vulkan::access::StateSubject;
+
+    #[test]
+    fn something_can_be_in_the_state_of_each_word() {
+        for (kind, word) in AccessKind::TABLE.iter().filter_map(|row| Some((row.kind, row.word?))) {
+            for of in word.of {
+                let formats = match of {
+                    StateSubject::Image => &[Some(Format::R8G8B8A8_UNORM), Some(Format::D32_SFLOAT)][..],
+                    StateSubject::Buffer => &[None],
+                };
+                let wrong = |format: &Option<Format>| {
+                    let subject = Subject { name: "it", format: *format, samples: 1 };
+                    contradiction(&meaning(kind, *format, StateTime::Before), subject, StateTime::Before)
+                };
+                let wrong: Vec<_> = formats.iter().map(wrong).collect();
+                assert!(wrong.contains(&None), "{}, of {of:?}: {wrong:?}", word.word);
+            }
+        }
+    }
+}

@@ -5,7 +5,7 @@ use super::{arrays, sampled_images};
 use crate::base::{Code, Diagnostic, Span, nearest, suggestion};
 use crate::expand::resources::{Resources, parts};
 use crate::frame::{BufferRole, BufferUse, Image, Pass, Resource, Storage};
-use crate::language::{self, Part, StorageAccess};
+use crate::language::{self, Part};
 use crate::ron::Name;
 use crate::shader::{Binding, BindingKind, PARAMS, PASS_SET, ShaderInterface};
 use crate::vulkan::{Component, Format, ImageShape, Numeric, Stages, Subresources};
@@ -31,9 +31,7 @@ fn access(storage: &language::Storage, interface: Option<&ShaderInterface>) -> (
         return (true, false);
     }
     match storage.access.map(|access| access.value) {
-        Some(StorageAccess::Read) => (true, false),
-        Some(StorageAccess::Write) => (false, true),
-        Some(StorageAccess::ReadWrite) => (true, true),
+        Some(access) => (access.reads(), access.writes()),
         None => {
             let declared = interface.and_then(|interface| of_pass(interface, &storage.binding.text));
             declared.and_then(|binding| binding.kind.storage()).unwrap_or((false, true))
@@ -195,19 +193,12 @@ fn access_fits(
         return;
     }
     let Some(access) = storage.access else { return };
-    let (message, help) = match access.value {
-        StorageAccess::Read if writable => ("may write", "declare it `readonly` in the shader, or say `ReadWrite`"),
-        StorageAccess::Write | StorageAccess::ReadWrite if !writable => {
-            ("only reads", "remove `readonly` in the shader, or say `Read`")
-        }
+    let (message, help) = match (access.value.writes(), writable) {
+        (false, true) => ("may write", "declare it `readonly` in the shader, or say `ReadWrite`"),
+        (true, false) => ("only reads", "remove `readonly` in the shader, or say `Read`"),
+        (false, false) if !readable => ("doesn't read", "remove `writeonly` in the shader"),
         // A write in some places keeps the others: a shader that can't read may say `ReadWrite`.
-        StorageAccess::Read | StorageAccess::Write | StorageAccess::ReadWrite => {
-            if !readable && access.value == StorageAccess::Read {
-                ("doesn't read", "remove `writeonly` in the shader")
-            } else {
-                return;
-            }
-        }
+        (true, true) | (false, false) => return,
     };
     errors.push(
         Diagnostic::new(Code::STORAGE_ACCESS, access.span, format!("shader `{shader}` {message} `{name}`")).help(help),

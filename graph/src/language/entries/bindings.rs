@@ -244,7 +244,7 @@ impl Context<'_> {
             let (part, access) = (part?, access?);
             let of_image = matches!(part, AnyPart::Image(_));
             if let (Some(previous), Some(access)) = (previous, access)
-                && access.value != StorageAccess::Read
+                && access.value.writes()
             {
                 let written =
                     Diagnostic::new(Code::EARLIER_FRAME, access.span, "what an earlier frame left can only be read");

@@ -1,7 +1,7 @@
 //! The images and buffers that a pass names, each with its use. All questions about them are asked of this one walk.
 
 use super::part::{BufferPart, ImagePart, Part};
-use super::pass::{Pass, StorageAccess};
+use super::pass::Pass;
 use super::references::ResourceRef;
 use crate::ron::Spanned;
 
@@ -93,8 +93,8 @@ impl Pass {
         let left_out = self.left_out.iter().filter_map(|left_out| left_out.sample.as_ref());
         let left_out = left_out.map(|sample| (PartRef::Image(&sample.part), Use::LeftOut));
         let storage = self.storage.iter().map(|storage| {
-            let reads = storage.access.is_some_and(|access| access.value == StorageAccess::Read);
-            (PartRef::of(&storage.part), if reads { Use::StorageRead } else { Use::Storage })
+            let writes = storage.access.is_none_or(|access| access.value.writes());
+            (PartRef::of(&storage.part), if writes { Use::Storage } else { Use::StorageRead })
         });
         let uniform = self.uniform.iter().map(|uniform| (PartRef::Buffer(&uniform.part), Use::Uniform));
         let drawn = self.vertex.iter().chain(&self.index).map(|part| (PartRef::Buffer(part), Use::Drawn));

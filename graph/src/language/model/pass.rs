@@ -286,6 +286,24 @@ pub enum StorageAccess {
     ReadWrite,
 }
 
+impl StorageAccess {
+    /// Whether earlier contents are read or kept.
+    pub(crate) const fn reads(self) -> bool {
+        match self {
+            StorageAccess::Read | StorageAccess::ReadWrite => true,
+            StorageAccess::Write => false,
+        }
+    }
+
+    /// Whether it is written.
+    pub(crate) const fn writes(self) -> bool {
+        match self {
+            StorageAccess::Read => false,
+            StorageAccess::Write | StorageAccess::ReadWrite => true,
+        }
+    }
+}
+
 /// A buffer that a shader reads as a uniform block.
 #[derive(Debug, Clone)]
 pub struct Uniform {

@@ -285,16 +285,7 @@ impl<'p> Text<'p> {
     }
 
     fn buffer(&self, access: &BufferAccess) -> Outline {
-        let kind = match access.role {
-            Some(BufferRole::Uniform) => "uniform",
-            Some(BufferRole::Storage { write: false, .. }) => "storage, read",
-            Some(BufferRole::Storage { read: false, .. }) => "storage, written",
-            Some(BufferRole::Storage { .. }) => "storage, read and written",
-            Some(BufferRole::Vertex) => "vertices",
-            Some(BufferRole::Index) => "indices",
-            Some(BufferRole::Indirect) => "counts",
-            None => "transferred",
-        };
+        let kind = access.role.map_or("transferred", BufferRole::words);
         let binding = access.binding.as_ref().map_or_else(String::new, |name| format!("{} = ", ShownText(name)));
         let text = format!("{binding}{}, {kind}", self.resource(Resource::Buffer(access.buffer)));
         Outline { about: Some(About::Buffer(access.buffer)), ..Outline::detail(text) }
