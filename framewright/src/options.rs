@@ -7,6 +7,7 @@ use framewright_graph::shader::DrawInterfaces;
 use framewright_passes::draw;
 use framewright_vulkan::{ExecutorOptions, Helper, PrecompiledShaders};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// What a [`Renderer`](crate::Renderer) is made with, and keeps. Begin with the default, and set fields.
 #[derive(Debug, Clone)]
@@ -18,6 +19,8 @@ pub struct RendererOptions {
     pub settings: Vec<PathBuf>,
     /// Folders of shaders beside that of the pipeline, which is looked in first.
     pub shaders: Vec<Root>,
+    /// SPIR-V of the program's own, by the names of files that no folder has: a pipeline says `FullScreen("post.spv")`.
+    pub spirv: Vec<(Arc<str>, Arc<[u8]>)>,
     /// What the program's draws bring along; by default what [`SceneDrawSource`](crate::SceneDrawSource) does.
     pub draws: DrawInterfaces,
     /// The process that compiles shaders; `None`: this one, without limits. See [`crate::vulkan::helper`].
@@ -36,6 +39,7 @@ impl Default for RendererOptions {
             files: FileOptions::default(),
             settings: Vec::new(),
             shaders: Vec::new(),
+            spirv: Vec::new(),
             draws: draw::interfaces(),
             helper: None,
             precompiled: None,

@@ -405,8 +405,12 @@ fn problem_text(problem: &ShaderProblem) -> String {
         ShaderProblem::DoesNotCompile { messages } => {
             format!("doesn't compile: {}", list(&messages.iter().map(ToString::to_string).collect::<Vec<_>>()))
         }
-        ShaderProblem::Unsupported { what } | ShaderProblem::Machine { what } => {
+        ShaderProblem::Unsupported { what } | ShaderProblem::BadModule { what } | ShaderProblem::Machine { what } => {
             format!("can't be used: {}", escape(what))
+        }
+        ShaderProblem::EntryPoint { file, stage, named, of_stage, .. } => {
+            let named = named.as_ref().map_or_else(String::new, |named| format!(" `{}`", escape(named)));
+            format!("{}: no single entry point{named} of a {stage} stage; there are: {}", escape(file), list(of_stage))
         }
     }
 }

@@ -19,6 +19,8 @@ pub(crate) enum DescriptorTarget {
     Buffer(vk::Buffer),
     /// A view, in the layout in which it will be, with a sampler or (storage images) without.
     Image(vk::ImageView, vk::ImageLayout, vk::Sampler),
+    /// A sampler by itself.
+    Sampler(vk::Sampler),
 }
 
 impl DescriptorSet {
@@ -58,14 +60,20 @@ impl DescriptorSet {
             .dst_array_element(element)
             .descriptor_type(binding.ty)
             .descriptor_count(1);
+        let image = |image_view, image_layout, sampler| [vk::DescriptorImageInfo { sampler, image_view, image_layout }];
         match target {
+            DescriptorTarget::Sampler(sampler) => {
+                let info = image(vk::ImageView::null(), vk::ImageLayout::UNDEFINED, sampler);
+                // SAFETY: the set is in no use, has this element, and the sampler lives.
+                unsafe { self.gpu.raw.update_descriptor_sets(&[write.image_info(&info)], &[]) };
+            }
             DescriptorTarget::Buffer(buffer) => {
                 let info = [vk::DescriptorBufferInfo { buffer, offset: 0, range: vk::WHOLE_SIZE }];
                 // SAFETY: the set is in no use, has this element, and the buffer lives.
                 unsafe { self.gpu.raw.update_descriptor_sets(&[write.buffer_info(&info)], &[]) };
             }
             DescriptorTarget::Image(image_view, image_layout, sampler) => {
-                let info = [vk::DescriptorImageInfo { sampler, image_view, image_layout }];
+                let info = image(image_view, image_layout, sampler);
                 // SAFETY: the set is in no use, has this element, and view and sampler live.
                 unsafe { self.gpu.raw.update_descriptor_sets(&[write.image_info(&info)], &[]) };
             }

@@ -10,9 +10,9 @@ use crate::pipeline::{DescriptorSet, DescriptorTarget, parameters};
 use ash::vk;
 use framewright_graph::frame::EyeForm;
 use framewright_graph::plan::{self, BindingKind, BufferId, ImageId, Plan, Resource};
-use framewright_graph::shader::{self, Block, PARAMS, PASS_SET};
+use framewright_graph::shader::{self, Block, PARAMS, PASS_SET, declared_name};
 use framewright_graph::vulkan::{
-    Accesses, Aspects, Component, Dimension, ImageShape, Sampler, Stages, Subresources, name_of,
+    Accesses, Aspects, Component, Dimension, Filter, ImageShape, Sampler, Stages, Subresources, name_of,
 };
 use std::sync::Arc;
 
@@ -30,6 +30,7 @@ pub(crate) struct PassSets {
 enum BoundResource {
     Params,
     Buffer(BufferId),
+    Sampler(Sampler),
     Image { image: ImageId, range: Subresources, shape: ViewShape, layout: vk::ImageLayout, sampler: Option<Sampler> },
 }
 
@@ -70,6 +71,10 @@ impl PassSets {
                 shader::BindingKind::UniformBlock(_) | shader::BindingKind::StorageBlock { .. } => {
                     let (ty, bound) = block(plan, pass, wanted).map_err(mismatch)?;
                     (ty, vec![bound])
+                }
+                shader::BindingKind::Sampler { images, compares } => {
+                    let sampler = separate_sampler(pass, &wanted.name, images, *compares).map_err(mismatch)?;
+                    (vk::DescriptorType::SAMPLER, vec![BoundResource::Sampler(sampler)])
                 }
                 shader::BindingKind::SampledImage(_)
                 | shader::BindingKind::ComparedDepth(_)
@@ -114,7 +119,7 @@ impl PassSets {
         }
         let (bindings, params) = (&self.bindings, self.params.as_ref().map(|(_, params)| params));
         let resources = bindings.iter().flat_map(|(_, elements)| elements).filter_map(|bound| match *bound {
-            BoundResource::Params => None,
+            BoundResource::Params | BoundResource::Sampler(_) => None,
             BoundResource::Buffer(buffer) => Some(Resource::Buffer(buffer)),
             BoundResource::Image { image, .. } => Some(Resource::Image(image)),
         });
@@ -143,6 +148,9 @@ impl PassSet {
                         let buffer = frame.buffer(*buffer);
                         buffers.push(buffer.clone());
                         DescriptorTarget::Buffer(buffer.raw)
+                    }
+                    BoundResource::Sampler(sampler) => {
+                        DescriptorTarget::Sampler(frame.gpu.sampler((*sampler).into(), sampler.compare)?)
                     }
                     BoundResource::Image { image, range, shape, layout, sampler } => {
                         let image = frame.image(*image);
@@ -241,6 +249,22 @@ fn images(
     Ok((ty, bound))
 }
 
+/// The state of a sampler by itself: that of the images that it samples, which are given alike.
+fn separate_sampler(pass: &plan::Pass, name: &str, images: &[String], compares: bool) -> Result<Sampler, String> {
+    let given = pass.accesses.iter().filter_map(|it| it.binding.as_ref());
+    let mut states = given.filter_map(|it| match it.kind {
+        BindingKind::Sampled(sampler) if images.iter().any(|image| *image == declared_name(&it.name)) => {
+            Some(sampler.comparing(compares))
+        }
+        BindingKind::Sampled(_) | BindingKind::Storage | BindingKind::InputAttachment => None,
+    });
+    let first = states.next().unwrap_or(Sampler::new(Filter::Nearest));
+    match states.all(|state| state == first) {
+        true => Ok(first),
+        false => Err(format!("the sampler `{name}` samples images that the Plan samples in different ways")),
+    }
+}
+
 /// The part of an image that is bound to `name`, in the shape that the shader declares.
 fn image(
     gpu: &Gpu,
@@ -297,7 +321,10 @@ fn image(
             read(shape.component)?;
             let arrayed = shape.arrayed || range.layers > 1 && image.eyes.is_some();
             let shape = view_shape(gpu, name, ImageShape { arrayed, ..shape }, image, range)?;
-            Ok((vk::DescriptorType::COMBINED_IMAGE_SAMPLER, whole(shape, Some(sampler))))
+            Ok(match wanted.separate {
+                true => (vk::DescriptorType::SAMPLED_IMAGE, whole(shape, None)),
+                false => (vk::DescriptorType::COMBINED_IMAGE_SAMPLER, whole(shape, Some(sampler))),
+            })
         }
         BindingKind::Storage => {
             let Some((shape, format)) = wanted.kind.storage_image() else { return otherwise("a storage image") };

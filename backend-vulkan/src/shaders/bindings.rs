@@ -1,6 +1,7 @@
 //! The resources that a shader stage uses, read off its SPIR-V.
 
 use super::module::{IndexedModule, id, number, storage_class};
+use super::sampler_pairs::SamplerPairs;
 use super::text::RefusedStage;
 use crate::base::ShaderStage;
 use crate::base::named;
@@ -23,6 +24,7 @@ pub(super) fn bindings(
     in_part: bool,
 ) -> Result<Vec<Binding>, RefusedStage> {
     let stage = stage.facts();
+    let pairs = SamplerPairs::of(module);
     let mut bindings = Vec::new();
     for (variable, instruction) in module.variables() {
         if storage_class(instruction) == Some(StorageClass::PushConstant) && used.contains(&variable) {
@@ -42,7 +44,7 @@ pub(super) fn bindings(
         let Some(ty) = module.pointee(instruction) else { continue };
         let (element, length) = element(module, ty);
         let kind = match (element, length) {
-            (Some(element), length) => match kind(module, variable, instruction, element) {
+            (Some(element), length) => match kind(module, &pairs, (variable, instruction), element) {
                 one if length.is_none() => one,
                 one => elements(one),
             },
@@ -54,19 +56,20 @@ pub(super) fn bindings(
             let what = format!("`{name}` is written by a {stage} shader: not every device can; declare it `readonly`");
             return Err(RefusedStage::named(name, what));
         }
-        let own = module.name(variable);
-        let name = if own.is_empty() { ty.result_id.map_or("", |ty| module.name(ty)) } else { own };
+        let separate = kind.is_sampled() && element.is_some_and(|element| element.class.opcode == Op::TypeImage);
         bindings.push(Binding {
             set,
             binding,
-            name: name.to_owned(),
+            name: name_of(module, variable, instruction).to_owned(),
             kind,
             length,
             adapts: false,
+            separate,
             stages: stage.pipeline,
         });
     }
     bindings.sort_by_key(|it| (it.set, it.binding));
+    join_pairs(&mut bindings);
     if let Some(far) = bindings.iter().find(|it| it.binding >= BINDINGS) {
         let what = format!("`{}` at binding {}: bindings go up to {}", far.name, far.binding, BINDINGS - 1);
         return Err(RefusedStage::named(&far.name, what));
@@ -81,8 +84,35 @@ pub(super) fn bindings(
     Ok(bindings)
 }
 
+/// The name of a resource: of its variable, or of its block.
+fn name_of<'m>(module: &IndexedModule<'m>, variable: u32, instruction: &Instruction) -> &'m str {
+    let own = module.name(variable);
+    if own.is_empty() {
+        module.pointee(instruction).and_then(|ty| ty.result_id).map_or("", |ty| module.name(ty))
+    } else {
+        own
+    }
+}
+
+/// Makes one sampled image of an image and its sampler that share a place.
+fn join_pairs(bindings: &mut Vec<Binding>) {
+    let places = |it: &Binding| (it.set, it.binding);
+    let samplers = bindings.iter().filter(|it| it.kind.is_sampler()).map(places).collect::<Vec<_>>();
+    let joined: Vec<_> =
+        bindings.iter().filter(|it| it.separate && samplers.contains(&places(it))).map(places).collect();
+    bindings.retain(|it| !(it.kind.is_sampler() && joined.contains(&places(it))));
+    for image in bindings.iter_mut().filter(|it| joined.contains(&(it.set, it.binding))) {
+        image.separate = false;
+    }
+}
+
 /// Kind and shape of a resource of type `ty`.
-fn kind(module: &IndexedModule<'_>, variable: u32, instruction: &Instruction, ty: &Instruction) -> BindingKind {
+fn kind(
+    module: &IndexedModule<'_>,
+    pairs: &SamplerPairs,
+    (variable, instruction): (u32, &Instruction),
+    ty: &Instruction,
+) -> BindingKind {
     match (ty.class.opcode, storage_class(instruction)) {
         (Op::TypeArray | Op::TypeRuntimeArray, _) => other("an array of arrays", "declare one array"),
         (Op::TypeSampledImage, _) => match id(ty, 0).and_then(|image| module.global(image)) {
@@ -106,15 +136,19 @@ fn kind(module: &IndexedModule<'_>, variable: u32, instruction: &Instruction, ty
                 },
                 Err(what) => other(&what, "declare it with the format of the pass's image, such as `layout(rgba16f)`"),
             },
-            (Some(_), _) => other("an image without sampler", "declare both as one `sampler2D`"),
+            (Some(shape), _) if pairs.compares(variable) => BindingKind::ComparedDepth(shape),
+            (Some(shape), _) => BindingKind::SampledImage(shape),
             (None, _) => BindingKind::InputAttachment {
                 multisampled: ty.operands.get(4).and_then(number) == Some(1),
                 component: id(ty, 0).map_or(Component::Float, |component| component_of(&module.type_name(component))),
             },
         },
-        (Op::TypeSampler, _) => other("a sampler without image", "declare both as one `sampler2D`"),
-        (Op::TypeStruct, Some(StorageClass::Uniform)) => BindingKind::UniformBlock(block(module, ty)),
-        (Op::TypeStruct, Some(StorageClass::StorageBuffer)) => {
+        (Op::TypeSampler, _) => {
+            let image = |image: u32| module.global(image).map(|it| name_of(module, image, it).to_owned());
+            let (images, compares) = (pairs.images_of(variable).filter_map(image).collect(), pairs.compares(variable));
+            BindingKind::Sampler { images, compares }
+        }
+        (Op::TypeStruct, _) if module.is_storage_block(instruction, ty) => {
             let members = u32::try_from(ty.operands.len()).unwrap_or(0);
             let lacks = |wanted| {
                 let decorated = |member| module.member_decoration(ty.result_id?, member, wanted);
@@ -124,6 +158,7 @@ fn kind(module: &IndexedModule<'_>, variable: u32, instruction: &Instruction, ty
             let bytes = ty.result_id.map_or(0, |ty| module.block_end(ty));
             BindingKind::StorageBlock { readable, writable, bytes }
         }
+        (Op::TypeStruct, Some(StorageClass::Uniform)) => BindingKind::UniformBlock(block(module, ty)),
         (opcode, _) => other(&format!("an {} of SPIR-V", named(opcode)), "declare an image or a block"),
     }
 }
@@ -148,6 +183,7 @@ fn elements(of: BindingKind) -> BindingKind {
             other("an array of blocks", "declare one storage block that holds an array")
         }
         BindingKind::InputAttachment { .. } => other("an array of input attachments", "give each a name of its own"),
+        BindingKind::Sampler { .. } => other("an array of samplers", "give each a name of its own"),
         BindingKind::SampledImage(_)
         | BindingKind::ComparedDepth(_)
         | BindingKind::StorageImage { .. }
@@ -248,8 +284,14 @@ pub(super) fn component_of(ty: &str) -> Component {
     }
 }
 
-/// A uniform block's members, and its size rounded up to 16 bytes as std140 does.
+/// A uniform block's members, and its size rounded up to 16 bytes as std140 does. Of a struct that is all of the block, they are those
+/// of the struct: so one compiler wraps what WGSL binds.
 fn block(module: &IndexedModule<'_>, structure: &Instruction) -> Block {
+    let inner = match &structure.operands[..] {
+        [Operand::IdRef(only)] => module.global(*only).filter(|it| it.class.opcode == Op::TypeStruct),
+        _ => None,
+    };
+    let structure = inner.unwrap_or(structure);
     let Some(structure_id) = structure.result_id else { return Block::default() };
     let mut block = Block { bytes: module.block_bytes(structure_id), ..Block::default() };
     for (index, operand) in (0_u32..).zip(&structure.operands) {

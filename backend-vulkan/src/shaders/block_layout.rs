@@ -39,11 +39,11 @@ pub(super) fn features(module: &IndexedModule<'_>) -> Vec<Feature> {
     let mut layouts = None;
     let mut found = Vec::new();
     for (variable, it) in module.variables() {
-        let usual = match storage_class(it) {
-            Some(StorageClass::Uniform) => Rules::Extended,
-            Some(StorageClass::StorageBuffer | StorageClass::PushConstant) => Rules::Base,
-            _ => continue,
-        };
+        let class = storage_class(it);
+        let in_block = [StorageClass::Uniform, StorageClass::StorageBuffer, StorageClass::PushConstant].map(Some);
+        if !in_block.contains(&class) {
+            continue;
+        }
         let Some(mut ty) = module.pointee(it) else { continue };
         // An array of blocks.
         if matches!(ty.class.opcode, Op::TypeArray | Op::TypeRuntimeArray) {
@@ -51,6 +51,8 @@ pub(super) fn features(module: &IndexedModule<'_>) -> Vec<Feature> {
             ty = element;
         }
         let Some(block) = ty.result_id.filter(|_| ty.class.opcode == Op::TypeStruct) else { continue };
+        let of_uniform = class == Some(StorageClass::Uniform) && !module.is_storage_block(it, ty);
+        let usual = if of_uniform { Rules::Extended } else { Rules::Base };
         let layouts = layouts.get_or_insert_with(|| Layouts::of(module));
         let name = match usual {
             _ if layouts.follows(block, usual) => continue,

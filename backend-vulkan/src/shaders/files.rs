@@ -2,10 +2,12 @@
 
 use super::text::{is_once, without_comments};
 use crate::base::digest;
+use crate::process::LARGEST_SPIRV;
 use framewright_graph::base::{FileIdentity, FilePath, NoFile, NoText, Root, text_of, without_mark};
 use framewright_graph::shader::ShaderProblem;
 use std::fs;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// Larger files are no shaders.
 const MAX_SOURCE_BYTES: usize = 1 << 20;
@@ -19,6 +21,8 @@ pub(super) struct ShaderFiles {
     pub(super) roots: Vec<Root>,
     /// File name and text.
     pub(super) shipped: &'static [(&'static str, &'static str)],
+    /// SPIR-V of the program, by the names of files.
+    pub(super) modules: Vec<(Arc<str>, Arc<[u8]>)>,
 }
 
 /// A source text.
@@ -68,6 +72,20 @@ impl ShaderFiles {
         Ok(own.or_else(|| self.shipped(name.path())))
     }
 
+    /// The file of SPIR-V `name` of a pipeline, or else the program's of that name, with its bytes; `None` if there is neither.
+    ///
+    /// # Errors
+    /// Those of [`ShaderFiles::find`].
+    pub(super) fn find_module(&self, name: &FilePath) -> Result<Option<(SourceFile, Vec<u8>)>, NoShader> {
+        let FilePath::Own(path) = name else { return Ok(None) };
+        let source = |shown: String| SourceFile { path: path.as_ref().into(), shown, text: String::new(), once: None };
+        if let Some((bytes, _, shown)) = self.bytes_on_disk(path, LARGEST_SPIRV)? {
+            return Ok(Some((source(shown.replace('\0', "")), bytes)));
+        }
+        let brought = self.modules.iter().find(|(brought, _)| **brought == **path);
+        Ok(brought.map(|(name, bytes)| (source(name.to_string()), bytes.to_vec())))
+    }
+
     /// The file that the shader file `from` includes as `name`: beside it, then in the pipeline's folder, then shipped;
     /// `None` if there is none. What a shipped file includes is shipped.
     ///
@@ -92,22 +110,25 @@ impl ShaderFiles {
 
     /// The file of that path in the first folder that has one.
     fn on_disk(&self, path: &str) -> Result<Option<SourceFile>, NoShader> {
+        let Some((bytes, found, shown)) = self.bytes_on_disk(path, MAX_SOURCE_BYTES)? else { return Ok(None) };
+        let text = text(&bytes, &shown)?;
+        let once = FileIdentity::of(&found).filter(|_| is_once(&text)).map(|file| digest(&file));
+        Ok(Some(SourceFile { path: path.into(), shown: shown.replace('\0', ""), text, once }))
+    }
+
+    /// The bytes of the file of that path in the first folder that has one, at most so many, with its place, and its name in messages.
+    fn bytes_on_disk(&self, path: &str, most: usize) -> Result<Option<(Vec<u8>, PathBuf, String)>, NoShader> {
         for root in &self.roots {
             let shown = root.folder().join(path).display().to_string();
-            let read = root.locate(path).and_then(|found| Ok((root.read(&found, MAX_SOURCE_BYTES)?, found)));
-            let (bytes, found) = match read {
-                Ok(read) => read,
+            let read = root.locate(path).and_then(|found| Ok((root.read(&found, most)?, found)));
+            return match read {
+                Ok((bytes, found)) => Ok(Some((bytes, found, shown))),
                 Err(NoFile::Missing) => continue,
                 Err(NoFile::TooLarge { bytes, limit }) => {
-                    return Err(format!("{shown} has {bytes} bytes, more than the {limit} of a shader").into());
+                    Err(format!("{shown} has {bytes} bytes, more than the {limit} of a shader").into())
                 }
-                Err(other) => {
-                    return Err(NoShader { what: format!("{shown} {other}"), of_machine: other.is_of_machine() });
-                }
+                Err(other) => Err(NoShader { what: format!("{shown} {other}"), of_machine: other.is_of_machine() }),
             };
-            let text = text(&bytes, &shown)?;
-            let once = FileIdentity::of(&found).filter(|_| is_once(&text)).map(|file| digest(&file));
-            return Ok(Some(SourceFile { path: path.into(), shown: shown.replace('\0', ""), text, once }));
         }
         Ok(None)
     }
@@ -139,7 +160,8 @@ impl ShaderFiles {
         folders.chain(shipped).collect()
     }
 
-    /// Names of all shaders whose files end in `ending` where something that the file `from` names is looked for, sorted.
+    /// Names of all shaders whose files end in `ending` where something that the file `from` names is looked for, sorted, without
+    /// the ending.
     pub(super) fn known_shaders(&self, from: &FilePath, ending: &str) -> Vec<String> {
         let own = matches!(from, FilePath::Own(_));
         let beside = Some(from.folder()).filter(|folder| !folder.is_empty() && self.may_read(folder));
@@ -149,7 +171,8 @@ impl ShaderFiles {
         });
         let on_disk = folders.filter(|_| own).filter_map(|folder| fs::read_dir(folder).ok());
         let on_disk = on_disk.flatten().flatten().filter_map(|entry| entry.file_name().into_string().ok());
-        let shipped = self.shipped.iter().map(|(name, _)| (*name).to_owned());
+        let brought = self.modules.iter().filter(|_| own).map(|(name, _)| name.to_string());
+        let shipped = self.shipped.iter().map(|(name, _)| (*name).to_owned()).chain(brought);
         let mut names: Vec<String> =
             on_disk.chain(shipped).filter_map(|file| file.strip_suffix(ending).map(str::to_owned)).collect();
         names.sort();

@@ -8,22 +8,23 @@ use super::eyes::{self, BothEyes};
 use super::files::{ShaderFiles, SourceFile};
 use super::layers;
 use super::macros::{Macros, PARTS, both_eyes, macros};
-use super::mentioned_names::MentionedNames;
 use super::needs::Needed;
 use super::reflect::reflect;
+use super::stage_sources::{StageSource, StageSources, file_of};
 use super::stages::{CompiledStage, Spirv, changes_nothing, join};
 use super::text::{self, RefusedStage, Words};
+use super::validator::judge;
 use super::varyings::without_idle_inputs;
 use crate::base::ShaderStage;
 use crate::process::{CompileJob, CompilerAnswer, Finding, Helper, Verdict};
-use framewright_graph::base::{FilePath, NoFile, Root};
+use framewright_graph::base::{FilePath, Root};
 use framewright_graph::device::{Need, NeedKind};
 use framewright_graph::frame::{Draw, EyeForm};
 use framewright_graph::shader::{
-    Binding, DrawInterface, DrawInterfaces, DrawKind, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem,
-    UnbindableResource, Variant,
+    Binding, DrawInterface, DrawInterfaces, DrawKind, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderName,
+    ShaderProblem, StageName, UnbindableResource, Variant,
 };
-use std::collections::{BTreeSet, HashMap};
+use std::collections::HashMap;
 use std::sync::Arc;
 
 /// A shader, ready for a pipeline.
@@ -70,10 +71,9 @@ pub struct CompiledCompute {
 /// macro. What was once read or compiled is kept for the library's
 /// lifetime: changes on disk need a new library.
 pub struct ShaderLibrary {
-    files: ShaderFiles,
+    sources: StageSources,
     draws: DrawInterfaces,
     compilers: Compilers,
-    sources: HashMap<String, Result<Option<Arc<StageSource>>, ShaderProblem>>,
     stages: HashMap<StageKey, StageResult>,
 }
 
@@ -81,15 +81,8 @@ const VERTEX: ShaderStage = ShaderStage::Vertex;
 const FRAGMENT: ShaderStage = ShaderStage::Fragment;
 const COMPUTE: ShaderStage = ShaderStage::Compute;
 
-/// A stage's own file.
-struct StageSource {
-    found: SourceFile,
-    /// The names in the file that decide how it is compiled for a pass.
-    mentioned: MentionedNames,
-}
-
-/// A stage by its file, its macros, how it draws for both eyes, and what it samples in layers.
-type StageKey = (String, ShaderStage, Macros, Option<BothEyes>, Vec<String>);
+/// A stage by its name, its macros, how it draws for both eyes, and what it samples in layers.
+type StageKey = (StageName, ShaderStage, Macros, Option<BothEyes>, Vec<String>);
 
 /// A stage, `None` if it has no file.
 type StageResult = Result<Option<Arc<CompiledStage>>, ShaderProblem>;
@@ -104,9 +97,8 @@ impl ShaderLibrary {
         draws: impl Into<DrawInterfaces>,
     ) -> ShaderLibrary {
         let draws = draws.into();
-        let files = ShaderFiles { roots, shipped };
-        let compilers = Compilers::new(None, None);
-        ShaderLibrary { files, draws, compilers, sources: HashMap::new(), stages: HashMap::new() }
+        let sources = StageSources::new(ShaderFiles { roots, shipped, modules: Vec::new() });
+        ShaderLibrary { sources, draws, compilers: Compilers::new(None, None), stages: HashMap::new() }
     }
 
     /// Has shaders compiled in a helper process, which bounds what they can take, and keeps them in its cache. Without a helper
@@ -125,21 +117,29 @@ impl ShaderLibrary {
         self
     }
 
+    /// Takes SPIR-V of the program's, by the names of files that no folder has: `post.spv`.
+    #[must_use]
+    pub fn with_spirv(mut self, modules: impl IntoIterator<Item = (Arc<str>, Arc<[u8]>)>) -> ShaderLibrary {
+        self.sources.files.modules.extend(modules);
+        self
+    }
+
     /// The shader `name` when it draws `draw`, compiled as `variant` says.
     ///
     /// # Errors
     /// [`ShaderProblem`] says whether it is missing, doesn't compile or can't be used.
     pub fn compiled(&mut self, name: &str, draw: Draw, variant: &Variant) -> Result<CompiledShader, ShaderProblem> {
-        let Some(fragment) = self.stage(FRAGMENT.file_of(name), FRAGMENT, variant)? else {
-            return Err(self.missing(&FilePath::of_text(name), FRAGMENT));
+        let shader = ShaderName::of_text(name);
+        let main = shader.main();
+        let Some(fragment) = self.stage(main, FRAGMENT, variant)? else {
+            return Err(self.sources.lacking(main, FRAGMENT));
         };
         // The same vertex stage, word for word: it must meet the same depth.
         let own = Variant { local: Vec::new(), depth_only: false, alpha_to_coverage: false, ..variant.clone() };
-        // A shipped vertex shader goes with the shipped fragment shader only.
-        let (vertex, usual_vertices) = match self.stage(VERTEX.file_of(name), VERTEX, &own)? {
-            Some(own) if own.shipped == fragment.shipped => (own, false),
-            _ => {
-                let usual = self.usual_vertex_stage(name, draw, variant)?;
+        let (vertex, usual_vertices) = match self.own_vertex_stage(&shader, fragment.shipped, &own)? {
+            Some(own) => (own, false),
+            None => {
+                let usual = self.usual_vertex_stage(main, draw, variant)?;
                 let shipped = usual.shipped;
                 (usual, shipped)
             }
@@ -147,16 +147,22 @@ impl ShaderLibrary {
         let mut interface = match join(&vertex, &fragment) {
             Ok(interface) => interface,
             Err(refused) => {
-                let source = self.source(&FRAGMENT.file_of(name))?;
-                let placed = source.map(|source| refused.placed(&self.files, &source.found));
+                let source = self.sources.source(&file_of(main, FRAGMENT))?;
+                let placed = source.map(|source| refused.placed(&self.sources.files, &source.found));
                 return Err(ShaderProblem::Unsupported { what: placed.unwrap_or_default() });
             }
         };
+        if ShaderName::is_spirv(name) {
+            interface.take_names(&variant.given);
+        }
         let fills = !draw.is_full_screen() || usual_vertices;
         interface.own_vertices = (!fills).then(|| vertex.file.clone());
         let spirv = vertex.spirv.clone();
         if variant.depth_only && changes_nothing(&fragment.reflected.interface) {
-            let (interface, input_attachments) = (vertex.reflected.interface.clone(), Vec::new());
+            let (mut interface, input_attachments) = (vertex.reflected.interface.clone(), Vec::new());
+            if ShaderName::is_spirv(name) {
+                interface.take_names(&variant.given);
+            }
             // One driver takes no notice of clip distances where there is no fragment stage: docs/drivers.md.
             let cut = both_eyes(variant).is_some_and(BothEyes::cuts_at_seam);
             let fragment = cut.then(|| eyes::empty_fragment_stage().into());
@@ -181,54 +187,75 @@ impl ShaderLibrary {
     /// # Errors
     /// [`ShaderProblem`] says whether it is missing, doesn't compile or can't be used.
     pub fn compute(&mut self, name: &str, variant: &Variant) -> Result<CompiledCompute, ShaderProblem> {
-        let stage = self.stage(COMPUTE.file_of(name), COMPUTE, variant)?;
-        let stage = stage.ok_or_else(|| self.missing(&FilePath::of_text(name), COMPUTE))?;
-        Ok(CompiledCompute { compute: stage.spirv.clone(), interface: stage.reflected.interface.clone() })
+        let name = StageName::of_text(name);
+        let stage = self.stage(&name, COMPUTE, variant)?;
+        let stage = stage.ok_or_else(|| self.sources.lacking(&name, COMPUTE))?;
+        let mut interface = stage.reflected.interface.clone();
+        if name.is_spirv() {
+            interface.take_names(&variant.given);
+        }
+        Ok(CompiledCompute { compute: stage.spirv.clone(), interface })
+    }
+
+    /// A shader's own vertex stage; `None`: the usual one of what is drawn goes with it.
+    fn own_vertex_stage(&mut self, shader: &ShaderName, shipped: bool, variant: &Variant) -> StageResult {
+        match shader {
+            ShaderName::Stages { vertex: None, .. } => Ok(None),
+            ShaderName::Stages { vertex: Some(vertex), .. } => match self.stage(vertex, VERTEX, variant)? {
+                Some(stage) => Ok(Some(stage)),
+                None => Err(self.sources.lacking(vertex, VERTEX)),
+            },
+            // A shipped vertex shader goes with the shipped fragment shader only.
+            ShaderName::Whole(name @ StageName::Glsl(_)) => {
+                Ok(self.stage(name, VERTEX, variant)?.filter(|own| own.shipped == shipped))
+            }
+            ShaderName::Whole(StageName::Spirv { file, .. }) => {
+                let source = self.sources.source(file)?;
+                let has = source.and_then(|it| it.module.as_ref().map(|module| module.has(VERTEX)));
+                match has {
+                    Some(true) => self.stage(&StageName::Spirv { file: file.clone(), entry: None }, VERTEX, variant),
+                    _ => Ok(None),
+                }
+            }
+        }
     }
 
     /// The vertex stage of a kind of draw, for the shader `name`, which has none of its own.
     fn usual_vertex_stage(
         &mut self,
-        name: &str,
+        name: &StageName,
         draw: Draw,
         variant: &Variant,
     ) -> Result<Arc<CompiledStage>, ShaderProblem> {
         let file = draw.usual_vertex_shader();
-        let what = || format!("no vertex shader: neither `{name}.vert` nor `{file}` was found");
-        let usual = match FilePath::of_text(name) {
+        let what = || match name {
+            StageName::Glsl(name) => format!("no vertex shader: neither `{name}.vert` nor `{file}` was found"),
+            StageName::Spirv { .. } => format!("no vertex shader: `{file}` wasn't found"),
+        };
+        let usual = match FilePath::of_text(&name.to_string()) {
             FilePath::Own(_) => FilePath::Own(file.into()),
             FilePath::Shipped(_) => FilePath::Shipped(file.into()),
         };
+        let usual = usual.to_string();
+        let usual = StageName::Glsl(usual.strip_suffix(VERTEX.facts().ending).unwrap_or(&usual).into());
         let bare = Variant { eye: variant.eye, form: variant.form, ..Variant::default() };
-        let stage = self.stage(usual.to_string(), VERTEX, &bare)?;
+        let stage = self.stage(&usual, VERTEX, &bare)?;
         stage.ok_or_else(|| ShaderProblem::Unsupported { what: what() })
     }
 
-    /// The texts of the user's own files that the shader `name`, which the file `from` names, may be made of: those of all its
-    /// stages, of vertex shaders that stand in for the usual ones, and of what they include. They are sorted, each once. Files that
-    /// can't be read are left out.
+    /// The user's own files that the shader `name`, which the file `from` names, may be made of: SPIR-V, or texts with lines as on
+    /// Unix, those of all its stages, of vertex shaders that stand in for the usual ones, and of what they include. They are sorted,
+    /// each once. Files that can't be read are left out.
     #[must_use]
-    pub fn own_texts(&self, from: &FilePath, name: &str) -> Vec<String> {
-        let stages = ShaderStage::ALL.map(|stage| stage.file_of(name));
-        let usual = Draw::usual_vertex_shaders().map(str::to_owned);
-        let beside = stages.iter().filter_map(|file| from.beside(file).ok());
-        let beside = beside.filter(|file| file.folder().is_empty() || self.files.may_read(file.folder()));
-        let places = beside.chain(stages.iter().chain(&usual).map(|file| FilePath::Own((&**file).into())));
-        let own = |file: &SourceFile| matches!(file.path, FilePath::Own(_));
-        let found = places.filter_map(|file| self.files.find(&file).ok().flatten()).filter(own);
-        let with_included = found.flat_map(|file| {
-            let included = text::included(&self.files, &file);
-            std::iter::once(file).chain(included)
-        });
-        let texts: BTreeSet<String> = with_included.filter(own).map(|file| file.text).collect();
-        texts.into_iter().collect()
+    pub fn own_files(&self, from: &FilePath, name: &str) -> Vec<Vec<u8>> {
+        self.sources.own_files(from, name)
     }
 
-    /// One stage by its file name; `None` if there is no such file.
-    fn stage(&mut self, file: String, stage: ShaderStage, variant: &Variant) -> StageResult {
-        let Some(source) = self.source(&file)? else { return Ok(None) };
+    /// One stage by its name; `None` if there is no such file.
+    fn stage(&mut self, name: &StageName, stage: ShaderStage, variant: &Variant) -> StageResult {
+        let Some(source) = self.sources.source(&file_of(name, stage))? else { return Ok(None) };
         let both = both_eyes(variant);
-        let key = (file, stage, macros(&source.mentioned, variant, stage), both, in_layers(variant, stage));
+        let key = (name.clone(), stage, macros(&source.mentioned, variant, stage), both, in_layers(variant, stage));
         if let Some(known) = self.stages.get(&key) {
             return known.clone();
         }
@@ -237,31 +264,26 @@ impl ShaderLibrary {
         result
     }
 
-    fn source(&mut self, file: &str) -> Result<Option<Arc<StageSource>>, ShaderProblem> {
-        if let Some(known) = self.sources.get(file) {
-            return known.clone();
-        }
-        let found = self.files.find(&FilePath::of_text(file)).map_err(ShaderProblem::from);
-        let source = found.map(|found| {
-            found.map(|found| {
-                let mentioned = MentionedNames::by_stage(&self.files, &found);
-                Arc::new(StageSource { found, mentioned })
-            })
-        });
-        self.sources.insert(file.to_owned(), source.clone());
-        source
-    }
-
-    fn compile_stage(&mut self, source: &StageSource, key: &StageKey) -> StageResult {
-        let StageSource { found, mentioned } = source;
-        let (_, stage, macros, both, in_layers) = key;
+    /// The SPIR-V of a stage, of the file's or compiled.
+    fn spirv_of(&mut self, source: &StageSource, key: &StageKey) -> Result<CompilerAnswer, ShaderProblem> {
+        let StageSource { found, module, .. } = source;
+        let (name, stage, macros, both, in_layers) = key;
         let stage = *stage;
+        let (compilers, files) = (&mut self.compilers, &self.sources.files);
+        let unsupported = |refused: RefusedStage| ShaderProblem::Unsupported { what: refused.placed(files, found) };
+        if let (Some(module), StageName::Spirv { file, entry }) = (module, name) {
+            let spirv = module.cut(file, stage, entry.as_deref())?;
+            let counts = both.is_some_and(BothEyes::counts_instances) && stage.facts().places_vertices;
+            if counts || both.is_some() && !in_layers.is_empty() {
+                return Err(unsupported(NOT_FOR_BOTH_EYES.to_owned().into()));
+            }
+            let verdict = judge(&spirv);
+            return Ok(CompilerAnswer { spirv, verdict });
+        }
+        let parts = tells_parts(macros);
         let text = both.map_or_else(|| found.text.clone(), |both| both.around(&found.text, stage));
         let job = CompileJob { stage, shown: found.shown.clone(), text, macros: macros.clone() };
-        let parts = macros.iter().any(|(name, _)| name == PARTS);
-        let (compilers, files) = (&mut self.compilers, &self.files);
-        let unsupported = |refused: RefusedStage| ShaderProblem::Unsupported { what: refused.placed(files, found) };
-        let CompilerAnswer { spirv, verdict } = compilers.compile(&job, found, files).map_err(|problem| {
+        let answer = compilers.compile(&job, found, files).map_err(|problem| {
             // A location of the library's own in the text is refused as in the modes in which it compiles.
             let both = both.filter(|both| both.counts_instances());
             let refused = both.and_then(|both| {
@@ -274,7 +296,22 @@ impl ShaderLibrary {
         if stage.facts().has_workgroups {
             sized(files, found).map_err(unsupported)?;
         }
-        let mut reflected = reflect(stage, &spirv, parts, both.is_some()).map_err(unsupported)?;
+        Ok(answer)
+    }
+
+    fn compile_stage(&mut self, source: &StageSource, key: &StageKey) -> StageResult {
+        let CompilerAnswer { spirv, verdict } = self.spirv_of(source, key)?;
+        let StageSource { found, mentioned, module } = source;
+        let (_, stage, macros, both, in_layers) = key;
+        let stage = *stage;
+        let files = &self.sources.files;
+        let unsupported = |refused: RefusedStage| ShaderProblem::Unsupported { what: refused.placed(files, found) };
+        // A stranger's module is judged before anything is read off it.
+        if let (Some(_), Verdict::Invalid(finding)) = (module, &verdict) {
+            return Err(ShaderProblem::Unsupported { what: invalid(finding, files, found) });
+        }
+        let reflected = reflect(stage, &spirv, tells_parts(macros), both.is_some());
+        let mut reflected = reflected.map_err(unsupported)?;
         // A resource that no pass can give is refused later, in better words.
         let is_refused = |binding: &Binding| binding.kind.unbindable().is_some();
         if let Verdict::Invalid(finding) = &verdict
@@ -320,33 +357,24 @@ impl ShaderLibrary {
         let (file, shipped) = (found.shown.clone(), matches!(found.path, FilePath::Shipped(_)));
         Ok(Some(Arc::new(CompiledStage { file, shipped, spirv: spirv.into(), reflected })))
     }
-
-    /// That the file `from` names no shader that there is.
-    fn missing(&self, from: &FilePath, stage: ShaderStage) -> ShaderProblem {
-        let looked_in = self.files.places(from);
-        ShaderProblem::Missing { looked_in, known: self.files.known_shaders(from, stage.facts().ending) }
-    }
 }
 
 impl ShaderInterfaces for ShaderLibrary {
     fn find(&mut self, from: &FilePath, name: &Arc<str>, draw: Option<Draw>) -> Result<Arc<str>, ShaderProblem> {
-        let stage = if draw.is_some() { FRAGMENT } else { COMPUTE };
-        let none = |_: NoFile| ShaderProblem::Unsupported { what: format!("`{name}` is no name of a shader") };
-        let beside = match from {
-            FilePath::Shipped(_) => FilePath::Shipped(name.clone()),
-            FilePath::Own(_) => from.beside(name).map_err(none)?,
+        let mut located = |name: &StageName, stage: ShaderStage| {
+            let found = self.sources.located(from, name, stage)?;
+            found.ok_or_else(|| self.sources.missing(from, name, stage))
         };
-        // A file that the user named by hand may lie in a folder outside: nothing is looked for there.
-        if from.folder().is_empty() || self.files.may_read(from.folder()) {
-            let path = beside.to_string();
-            if self.source(&stage.file_of(&path))?.is_some() {
-                return Ok(path.into());
+        let found = match ShaderName::of_text(name) {
+            ShaderName::Whole(main) => {
+                ShaderName::Whole(located(&main, if draw.is_some() { FRAGMENT } else { COMPUTE })?)
             }
-        }
-        match from {
-            FilePath::Own(_) if self.source(&stage.file_of(name))?.is_some() => Ok(name.clone()),
-            _ => Err(self.missing(from, stage)),
-        }
+            ShaderName::Stages { vertex, fragment } => ShaderName::Stages {
+                vertex: vertex.map(|vertex| located(&vertex, VERTEX)).transpose()?,
+                fragment: located(&fragment, FRAGMENT)?,
+            },
+        };
+        Ok(found.to_string().into())
     }
 
     fn draw_shader(&mut self, name: &str, draw: Draw, variant: &Variant) -> Result<ShaderInterface, ShaderProblem> {
@@ -364,6 +392,15 @@ impl ShaderInterfaces for ShaderLibrary {
     fn custom_passes(&self) -> Option<Vec<Arc<str>>> {
         self.draws.custom_passes().map(<[Arc<str>]>::to_vec)
     }
+}
+
+/// Why SPIR-V isn't used in a draw for both eyes.
+const NOT_FOR_BOTH_EYES: &str = "it is drawn for both eyes at once, and SPIR-V isn't told which eye it draws for: draw each eye by \
+    itself (`multi-pass`), or write it in GLSL";
+
+/// Whether push constants tell a stage which parts of images are in use.
+fn tells_parts(macros: &Macros) -> bool {
+    macros.iter().any(|(name, _)| name == PARTS)
 }
 
 /// A compute stage says how large its workgroups are. If it doesn't, GLSL makes them one invocation each, which hardly any shader

@@ -1,4 +1,5 @@
-//! Shaders by name: GLSL from folders or shipped with the program, compiled to SPIR-V and reflected. Needs no device.
+//! Shaders by name: GLSL from folders or shipped with the program, compiled to SPIR-V, and SPIR-V of other compilers; both are
+//! reflected. Needs no device.
 
 mod bindings;
 mod block_layout;
@@ -19,11 +20,18 @@ mod macros;
 mod mentioned_names;
 mod messages;
 mod module;
+mod module_capabilities;
+mod module_checks;
+mod module_file;
+mod module_words;
 mod needs;
+mod place_names;
 mod precompiled_shaders;
 mod reflect;
 mod rotation;
+mod sampler_pairs;
 mod spirv_cache;
+mod stage_sources;
 mod stages;
 mod text;
 mod validator;

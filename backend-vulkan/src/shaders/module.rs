@@ -211,6 +211,16 @@ impl<'m> IndexedModule<'m> {
         self.global(id(self.global(variable.result_type?)?, 1)?)
     }
 
+    /// Whether a variable is a storage block. Before SPIR-V 1.3 its type says so, and not its storage class.
+    pub(super) fn is_storage_block(&self, variable: &Instruction, structure: &Instruction) -> bool {
+        let marked = || structure.result_id.is_some_and(|ty| self.decoration(ty, Decoration::BufferBlock).is_some());
+        match storage_class(variable) {
+            Some(StorageClass::StorageBuffer) => true,
+            Some(StorageClass::Uniform) => marked(),
+            _ => false,
+        }
+    }
+
     /// The name of `id`; empty if it has none.
     pub(super) fn name(&self, id: u32) -> &'m str {
         self.names.get(&id).copied().unwrap_or("")

@@ -154,19 +154,30 @@ fn check_locations(module: &IndexedModule<'_>, class: StorageClass, most: u32) -
     Ok(())
 }
 
-/// Invocations of a workgroup, as the entry point says.
+/// Invocations of a workgroup, as a constant says, or else the entry point.
 fn workgroup_size(module: &IndexedModule<'_>) -> [u32; 3] {
-    let size = module.module.execution_modes.iter().find_map(|it| match &it.operands[..] {
+    let is_size = |id: u32| {
+        matches!(module.decoration(id, Decoration::BuiltIn), Some(Some(Operand::BuiltIn(BuiltIn::WorkgroupSize))))
+    };
+    let constants = module.module.types_global_values.iter().filter(|it| it.result_id.is_some_and(is_size));
+    let parts = |it: &rspirv::dr::Instruction| {
+        it.operands.iter().filter_map(|it| module.constant(it.id_ref_any()?)).collect::<Vec<_>>()
+    };
+    let by_constant = constants.map(parts).find(|size| size.len() == 3);
+    let size = by_constant.or_else(|| size_of_entry_point(module)).unwrap_or_default();
+    [0, 1, 2].map(|axis| size.get(axis).copied().unwrap_or(1).max(1))
+}
+
+fn size_of_entry_point(module: &IndexedModule<'_>) -> Option<Vec<u32>> {
+    module.module.execution_modes.iter().find_map(|it| match &it.operands[..] {
         [_, Operand::ExecutionMode(ExecutionMode::LocalSize), size @ ..] => {
-            Some(size.iter().filter_map(number).collect::<Vec<_>>())
+            Some(size.iter().filter_map(number).collect())
         }
         [_, Operand::ExecutionMode(ExecutionMode::LocalSizeId), size @ ..] => {
             Some(size.iter().filter_map(|it| module.constant(it.id_ref_any()?)).collect())
         }
         _ => None,
-    });
-    let size = size.unwrap_or_default();
-    [0, 1, 2].map(|axis| size.get(axis).copied().unwrap_or(1).max(1))
+    })
 }
 
 /// No more memory for variables than an invocation may have.

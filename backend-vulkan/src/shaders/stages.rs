@@ -55,6 +55,19 @@ pub(super) fn join(vertex: &CompiledStage, fragment: &CompiledStage) -> Result<S
                 same.stages |= binding.stages;
                 same.adapts &= binding.adapts;
             }
+            Some(same)
+                if same.name == binding.name
+                    && same.separate
+                    && binding.separate
+                    && same.kind.sampled() == binding.kind.sampled() =>
+            {
+                same.stages |= binding.stages;
+                same.kind.compare_as(&binding.kind);
+            }
+            Some(same) if same.name == binding.name && same.kind.is_sampler() && binding.kind.is_sampler() => {
+                same.stages |= binding.stages;
+                same.kind.join_sampler(&binding.kind);
+            }
             Some(other) => {
                 let what = format!(
                     "it declares `{}` at set {}, binding {}, where {} declares `{}`, or the same in another form",

@@ -57,6 +57,7 @@ mod shader_features;
 mod shader_files;
 mod shader_interfaces;
 mod shipped_pictures;
+mod spirv;
 mod stereo;
 mod study;
 mod testing;

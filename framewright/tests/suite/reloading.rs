@@ -1,7 +1,7 @@
 //! Files that change while they are drawn (EM-1).
 
-use crate::testing::{Place, draw, renderer};
-use framewright::Change;
+use crate::testing::{Place, draw, renderer, renderer_with};
+use framewright::{Change, RendererOptions};
 use framewright_tests::render;
 
 /// Extends a shipped pipeline.
@@ -127,4 +127,41 @@ fn a_shader_that_changes_is_compiled_anew_though_the_plan_is_the_same() {
     assert!(renderer.files_changed());
     renderer.reload().expect("it compiles");
     assert_eq!(draw(&mut renderer, 1).1[..4], [0, 255, 0, 255]);
+}
+
+/// SPIR-V of the program, and then of a file that appears and changes (DO-1).
+#[test]
+fn a_module_of_the_program_is_drawn_until_a_file_takes_its_place_and_that_is_followed() {
+    let Some(device) = render::device() else { return };
+    let place = Place::new();
+    let text = r#"Pipeline(version: 1,
+        images: [(name: "light", format: R16G16B16A16_SFLOAT, size: Output), (name: "screen", format: Output, size: Output)],
+        passes: [
+            (name: "sky", draw: Sky, color: [(image: "light", clear: (0, 0, 0, 1))]),
+            (name: "post", draw: FullScreen("post.spv"), sample: {"source": "light"}, params: {"factor": 1, "tint": (1, 1, 1)},
+                color: ["screen"]),
+        ],
+        outputs: ["screen"])"#;
+    let module: &[u8] = include_bytes!("../../../tests/shaders/spirv/post_hlsl.spv");
+    // Its only constant of a number is 1.0, the alpha.
+    let with_alpha = |alpha: f32| {
+        let words = module.as_chunks::<4>().0.iter();
+        let words = words.map(|word| if *word == 1.0_f32.to_le_bytes() { alpha.to_le_bytes() } else { *word });
+        words.flatten().collect::<Vec<u8>>()
+    };
+    let file = place.file("mine.ron", text);
+    let mut options = RendererOptions::default();
+    options.spirv = vec![("post.spv".into(), module.into())];
+    let mut renderer = renderer_with(device, &file, options);
+    let alpha = |picture: &[u8]| picture.as_chunks::<4>().0[0][3];
+    assert_eq!(alpha(&draw(&mut renderer, 1).1), 255);
+    for (shown, written) in [(0, 0.0), (51, 0.2)] {
+        place.file("post.spv", with_alpha(written));
+        assert!(renderer.files_changed());
+        renderer.reload().expect("right");
+        assert_eq!(alpha(&draw(&mut renderer, 1).1), shown);
+    }
+    place.file("post.spv", &module[..40]);
+    assert!(renderer.reload().expect_err("cut off").to_string().contains("cut off"));
+    render::silent(device).expect("silent");
 }

@@ -105,6 +105,7 @@ impl ShaderInterfaces for FullScreen {
             kind: BindingKind::SampledImage(shape),
             length: None,
             adapts: false,
+            separate: false,
             stages: Stages::FRAGMENT_SHADER,
         };
         let member = Member { name: "gain".to_owned(), offset: 0, ty: "float".to_owned(), matrix: None };

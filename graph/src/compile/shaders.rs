@@ -44,7 +44,7 @@ pub fn wrong(plan: &Plan, frame: &Frame, shaders: &mut dyn ShaderInterfaces) -> 
 fn unmet(pass: &Pass, interface: &ShaderInterface) -> Option<String> {
     let images = pass.accesses.iter().filter_map(|access| access.binding.as_ref()).map(|binding| &*binding.name);
     let given: Vec<&str> = images.chain(pass.buffers.iter().filter_map(|buffer| buffer.binding.as_deref())).collect();
-    let own = || interface.bindings.iter().filter(|binding| binding.set == PASS_SET);
+    let own = || interface.bindings.iter().filter(|binding| binding.set == PASS_SET && !binding.kind.is_sampler());
     if let Some(surplus) = given.iter().find(|name| !own().any(|binding| binding.takes(name))) {
         return Some(format!("it has no `{surplus}`, which pass `{}` gives", pass.name));
     }

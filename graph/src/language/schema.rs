@@ -2,6 +2,7 @@
 
 use super::settings_file::SettingsFields;
 use crate::language::compose::tables::{EXTENDING, EXTENSION, LibraryFields, PIPELINE};
+use crate::language::entries::shader::LONGEST;
 use crate::language::entries::work::GOES_WITH;
 use crate::ron::{FieldTable, Form, PlainForm, Row, Table, Word, WordContents, Words};
 use serde_json::{Map, Value, json};
@@ -143,6 +144,10 @@ impl Schema {
             PlainForm::Text => json!({ "type": "string" }),
             PlainForm::Name => self.named("name", |_| name("_")),
             PlainForm::Outside => self.named("outside_name", |_| name("_\\-")),
+            PlainForm::Shader => self.named("shader_name", |_| {
+                let spirv = json!({ "type": "string", "pattern": "\\.spv(:[^ ,]+)?$", "maxLength": LONGEST });
+                json!({ "anyOf": [name("_\\-"), spirv] })
+            }),
         }
     }
 

@@ -39,6 +39,11 @@ impl Plan {
             local: local.map(|binding| binding.name.clone()).collect(),
             depth_only: pass.redraws.is_some(),
             alpha_to_coverage: pass.alpha_to_coverage,
+            given: Variant::given_to(
+                &pass.shader,
+                bindings().map(|binding| &binding.name).chain(pass.buffers.iter().filter_map(|it| it.binding.as_ref())),
+                pass.params.iter().map(|param| &param.name),
+            ),
         }
     }
 

@@ -59,8 +59,10 @@ pub enum PlainForm {
     Text,
     /// A name that the file gives to something, in quotes.
     Name,
-    /// The name of a shader, or of a callback of a program, in quotes.
+    /// The name of a callback of a program, in quotes.
     Outside,
+    /// The name of a shader or of one of its stages, in quotes.
+    Shader,
 }
 
 /// The fields of a form, as [`fields!`](crate::fields) makes them.

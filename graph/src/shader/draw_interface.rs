@@ -1,6 +1,6 @@
 //! What the draw source brings along for one kind of draw, and what of it no device could bind.
 
-use super::{BINDINGS, Binding, BindingKind, PASS_SET};
+use super::{BINDINGS, Binding, BindingKind, PASS_SET, binding_name};
 use crate::vulkan::{Component, Dimension, ImageShape};
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -105,9 +105,19 @@ impl SuppliedResource {
     /// Whether a shader that declares `binding` reads this. It may declare only the first elements of an array.
     #[must_use]
     pub fn is(&self, binding: &Binding) -> bool {
-        (self.set, self.binding, &*self.name) == (binding.set, binding.binding, &*binding.name)
+        (self.set, self.binding) == (binding.set, binding.binding)
+            && self.is_called(binding)
             && self.kind.is(&binding.kind)
+            && !binding.separate
             && binding.count() <= self.count
+    }
+
+    /// Whether a shader means this: by its name, or by its place where it has no names.
+    #[must_use]
+    pub fn is_called(&self, binding: &Binding) -> bool {
+        *self.name == *binding.name
+            || (self.set, self.binding) == (binding.set, binding.binding)
+                && binding.name == binding_name(binding.set, binding.binding)
     }
 }
 

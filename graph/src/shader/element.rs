@@ -72,7 +72,7 @@ mod tests {
         let taking = |length| {
             let kind = BindingKind::UniformBlock(Block::default());
             let (name, stages) = ("taps".to_owned(), Stages::empty());
-            let binding = Binding { set: 0, binding: 0, name, kind, length, adapts: false, stages };
+            let binding = Binding { set: 0, binding: 0, name, kind, length, adapts: false, separate: false, stages };
             ["taps", "taps[0]", "taps[2]", "taps[3]", "other[0]"].map(|name| binding.takes(name))
         };
         assert_eq!(taking(None), [true, false, false, false, false]);

@@ -4,10 +4,13 @@ mod draw_interface;
 mod draw_interfaces;
 mod draw_kind;
 mod element;
+mod given_names;
 mod interface_file;
 mod needs;
 mod param_type;
+mod place_names;
 mod problem;
+mod shader_name;
 mod vertex_layout;
 
 use crate::base::{FilePath, OutsideChoice, Quote};
@@ -25,6 +28,10 @@ pub use element::{declared_name, element_name, element_of};
 pub use interface_file::LARGEST_INTERFACE;
 pub use needs::resource_needs;
 pub use param_type::{ParamMisfit, ParamScalar, ParamType};
+pub use place_names::{
+    GivenNames, PASS_SET, binding_name, binding_of, is_place, location_name, offset_name, offset_of,
+};
+pub use shader_name::{ShaderName, StageName};
 pub use vertex_layout::{LayoutFault, LocationLayout, VertexInput, VertexLayout};
 
 /// Everything that a shader (all its stages together) uses.
@@ -87,10 +94,6 @@ pub enum UnturnedPart {
     Derivatives,
 }
 
-/// The set whose bindings belong to the pass: its sampled and storage images, its buffers, and one block of parameters.
-/// Sets from 1 on belong to the draw source.
-pub const PASS_SET: u32 = 0;
-
 /// The name of the uniform block whose members are a pass's parameters.
 pub const PARAMS: &str = "params";
 
@@ -112,6 +115,8 @@ pub struct Binding {
     pub length: Option<u32>,
     /// Whether the pass chooses its type: the shader declares `uniform TEXTURE_NAME NAME`.
     pub adapts: bool,
+    /// Whether it is a sampled image without a sampler: `texture2D`, HLSL's `Texture2D`.
+    pub separate: bool,
     /// Stages that use it.
     pub stages: Stages,
 }
@@ -119,10 +124,17 @@ pub struct Binding {
 /// Kind and shape of a resource.
 #[derive(Debug, Clone, PartialEq)]
 pub enum BindingKind {
-    /// A combined image sampler.
+    /// A sampled image, with its sampler or, where the binding is separate, without.
     SampledImage(ImageShape),
-    /// A combined image sampler that compares depth: `sampler2DShadow`.
+    /// A sampled image that is compared with a depth: `sampler2DShadow`.
     ComparedDepth(ImageShape),
+    /// A sampler by itself. A pass gives it nothing: it samples as the pass says of the images.
+    Sampler {
+        /// The names of the images that it samples.
+        images: Vec<String>,
+        /// Whether it compares depths.
+        compares: bool,
+    },
     /// A storage image.
     StorageImage {
         /// Dimension and component type.
@@ -152,7 +164,7 @@ pub enum BindingKind {
         /// The type of a component.
         component: Component,
     },
-    /// Anything else (separate samplers, texel buffers, storage images of formats that no image of a pipeline has, …): not
+    /// Anything else (texel buffers, storage images of formats that no image of a pipeline has, …): not
     /// supported.
     Other(UnbindableResource),
 }
@@ -172,6 +184,7 @@ impl BindingKind {
             | BindingKind::StorageBlock { readable, writable, .. } => Some((*readable, *writable)),
             BindingKind::SampledImage(_)
             | BindingKind::ComparedDepth(_)
+            | BindingKind::Sampler { .. }
             | BindingKind::UniformBlock(_)
             | BindingKind::InputAttachment { .. }
             | BindingKind::Other(_) => None,
@@ -184,10 +197,51 @@ impl BindingKind {
         match self {
             BindingKind::SampledImage(shape) | BindingKind::ComparedDepth(shape) => Some(*shape),
             BindingKind::StorageImage { .. }
+            | BindingKind::Sampler { .. }
             | BindingKind::UniformBlock(_)
             | BindingKind::StorageBlock { .. }
             | BindingKind::InputAttachment { .. }
             | BindingKind::Other(_) => None,
+        }
+    }
+
+    /// The names of the images that a sampler samples, and whether it compares depths; `None`: it is no sampler.
+    #[must_use]
+    pub fn sampler(&self) -> Option<(&[String], bool)> {
+        match self {
+            BindingKind::Sampler { images, compares } => Some((images, *compares)),
+            _ => None,
+        }
+    }
+
+    /// Whether it is a sampler by itself.
+    #[must_use]
+    pub fn is_sampler(&self) -> bool {
+        self.sampler().is_some()
+    }
+
+    /// Takes over from the same image in another stage that it is compared with a depth.
+    pub fn compare_as(&mut self, other: &BindingKind) {
+        if other.is_compared() {
+            self.clone_from(other);
+        }
+    }
+
+    /// Takes over what the same sampler samples in another stage.
+    pub fn join_sampler(&mut self, other: &BindingKind) {
+        let (BindingKind::Sampler { images, compares }, Some((others, also))) = (self, other.sampler()) else { return };
+        for other in others {
+            if !images.contains(other) {
+                images.push(other.clone());
+            }
+        }
+        *compares |= also;
+    }
+
+    /// Calls one of the images that a sampler samples by another name.
+    pub(crate) fn rename_sampled(&mut self, from: &str, to: &str) {
+        if let BindingKind::Sampler { images, .. } = self {
+            images.iter_mut().filter(|name| **name == *from).for_each(|name| to.clone_into(name));
         }
     }
 
@@ -275,6 +329,7 @@ impl BindingKind {
         match self {
             BindingKind::SampledImage(_) => "a sampled image",
             BindingKind::ComparedDepth(_) => "a sampled image that is compared",
+            BindingKind::Sampler { .. } => "a sampler",
             BindingKind::StorageImage { .. } => "a storage image",
             BindingKind::UniformBlock(_) => "a uniform block",
             BindingKind::StorageBlock { .. } => "a storage block",
@@ -375,6 +430,24 @@ pub enum ShaderProblem {
         /// The reason, in words.
         what: String,
     },
+    /// Its SPIR-V can't be read.
+    BadModule {
+        /// The reason, in words.
+        what: String,
+    },
+    /// Its SPIR-V has no entry point of that name and stage, or several of the stage.
+    EntryPoint {
+        /// The file.
+        file: String,
+        /// The stage: `fragment`.
+        stage: &'static str,
+        /// The entry point that was named, if one was.
+        named: Option<String>,
+        /// All entry points of the stage.
+        of_stage: Vec<String>,
+        /// Those of other stages, each with its stage.
+        others: Vec<(String, &'static str)>,
+    },
     /// Nothing is known of it: the machine doesn't let it be read or compiled.
     Machine {
         /// The reason, in words.
@@ -427,9 +500,23 @@ pub struct Variant {
     pub depth_only: bool,
     /// Whether its alpha says how many samples are covered: the macro `ALPHA_TO_COVERAGE` is defined in its fragment stage.
     pub alpha_to_coverage: bool,
+    /// Of SPIR-V, the names by which the pass gives it things; none of GLSL.
+    pub given: GivenNames,
 }
 
 impl Variant {
+    /// The names by which a pass gives things to the shader `shader`, if it is SPIR-V.
+    pub fn given_to<'n>(
+        shader: &str,
+        bindings: impl Iterator<Item = &'n Arc<str>>,
+        params: impl Iterator<Item = &'n Arc<str>>,
+    ) -> GivenNames {
+        if !ShaderName::is_spirv(shader) {
+            return GivenNames::default();
+        }
+        GivenNames { bindings: bindings.cloned().collect(), params: params.cloned().collect() }
+    }
+
     /// Puts the name of each array in place of those of its elements, once: a shader is compiled for an array as a whole.
     pub fn name_arrays(names: &mut Vec<Arc<str>>) {
         if names.iter().any(|name| element_of(name).is_some()) {

@@ -62,6 +62,9 @@ pub fn resource_needs<'s>(
             needs.push(Need { kind: NeedKind::Limit { limit, value, what: what().into() }, place: "".into() });
         }
     };
+    // Of images without samplers the samplers count by themselves.
+    let separate: u64 = own().filter(|it| it.separate).map(|it| u64::from(it.count())).sum();
+    let samplers = own().filter(|it| it.kind.is_sampler()).count() as u64;
     for (what, is_own, supplied, limits) in COUNTED {
         let own = own().filter(|it| is_own(&it.kind)).map(|it| (&*it.name, it.count()));
         let brought = brought.clone().filter(|it| Some(it.kind) == supplied).map(|it| (&*it.name, it.count));
@@ -72,7 +75,10 @@ pub fn resource_needs<'s>(
             let array = array.map_or_else(String::new, |(name, count)| format!(", {count} of them as `{name}`"));
             format!("{count} {what} are bound{array}")
         };
-        limits.iter().for_each(|limit| need(*limit, count, &words));
+        for limit in limits {
+            let of_samplers = matches!(limit, Limit::StageSamplers | Limit::SetSamplers);
+            need(*limit, if of_samplers { count - separate + samplers } else { count }, &words);
+        }
     }
     need(Limit::StageResources, all, &|| format!("{all} resources and colour targets are bound"));
     let is_stored =
@@ -152,6 +158,7 @@ mod tests {
             kind: BindingKind::StorageBlock { readable: true, writable: true, bytes: 4 },
             length: None,
             adapts: false,
+            separate: false,
             stages: Stages::FRAGMENT_SHADER,
         };
         let shader = ShaderInterface { bindings: (0..4).map(block).collect(), ..ShaderInterface::default() };

@@ -1,7 +1,7 @@
 //! What is wrong with a shader, as a mistake of the file that names it.
 
 use super::ShaderProblem;
-use crate::base::{Code, Diagnostic, Span, suggestion};
+use crate::base::{Code, Diagnostic, Span, nearest, suggestion};
 
 impl ShaderProblem {
     /// The rule that is broken.
@@ -11,6 +11,8 @@ impl ShaderProblem {
             ShaderProblem::Missing { .. } => Code::UNKNOWN_SHADER,
             ShaderProblem::DoesNotCompile { .. } => Code::SHADER_BROKEN,
             ShaderProblem::Unsupported { .. } => Code::SHADER_UNFIT,
+            ShaderProblem::BadModule { .. } => Code::SPIRV_FILE,
+            ShaderProblem::EntryPoint { .. } => Code::ENTRY_POINT,
             ShaderProblem::Machine { .. } => Code::SHADER_MACHINE,
         }
     }
@@ -39,9 +41,41 @@ impl ShaderProblem {
             ShaderProblem::Unsupported { what } => {
                 Diagnostic::new(self.code(), span, format!("shader `{name}` can't be used: {what}"))
             }
+            ShaderProblem::BadModule { what } => {
+                Diagnostic::new(self.code(), span, format!("shader `{name}` is no SPIR-V that can be read: {what}"))
+            }
+            ShaderProblem::EntryPoint { file, stage, named, of_stage, others } => {
+                let (message, help) = entry_point(file, stage, named.as_deref(), of_stage, others);
+                Diagnostic::new(self.code(), span, message).help(help)
+            }
             ShaderProblem::Machine { what } => {
                 Diagnostic::new(self.code(), span, format!("shader `{name}` can't be used: {what}")).of_machine()
             }
         }
     }
+}
+
+/// That a module has no such entry point, or several, and what to write.
+fn entry_point(
+    file: &str,
+    stage: &str,
+    named: Option<&str>,
+    of_stage: &[String],
+    others: &[(String, &'static str)],
+) -> (String, String) {
+    let mut all: Vec<String> = of_stage.iter().map(|entry| format!("`{file}:{entry}`")).collect();
+    if let (None, [_, _, ..]) = (named, of_stage) {
+        let message = format!("`{file}` has {} entry points of a {stage} stage", all.len());
+        return (message, format!("say which: {}", all.join(", ")));
+    }
+    let message = match named {
+        Some(named) => format!("`{file}` has no entry point `{named}` of a {stage} stage"),
+        None => format!("`{file}` has no entry point of a {stage} stage"),
+    };
+    let meant = named.and_then(|named| nearest(named, of_stage.iter().map(String::as_str)));
+    if let Some(meant) = meant {
+        return (message, format!("did you mean `{file}:{meant}`?"));
+    }
+    all.extend(others.iter().map(|(entry, stage)| format!("`{entry}` of a {stage} stage")));
+    (message, if all.is_empty() { "it has none at all".to_owned() } else { format!("it has {}", all.join(", ")) })
 }

@@ -412,6 +412,12 @@ impl Sampler {
         Sampler { filter, mips: Filter::Nearest, address: AddressMode::ClampToEdge, compare: None }
     }
 
+    /// The same, for a shader that compares depths, or doesn't.
+    #[must_use]
+    pub const fn comparing(self, compares: bool) -> Sampler {
+        Sampler { compare: if compares { self.compare } else { None }, ..self }
+    }
+
     /// Whether it takes means of texels, which not every format allows.
     #[must_use]
     pub const fn is_linear(&self) -> bool {

@@ -3,6 +3,7 @@
 mod coverage;
 mod exact;
 mod files;
+mod modules;
 mod refusals;
 mod validity;
 
@@ -145,7 +146,7 @@ fn what_no_pass_can_give_is_told_by_its_line_and_with_what_to_declare_instead() 
         .expect("a file");
     let declared = "#version 460
         /* uniform sampler alone;
-        */ layout(set = 0, binding = 5) uniform sampler alone;
+        */ layout(set = 0, binding = 5) uniform sampler alone[2];
         layout(set = 0, binding = 6) uniform Many { vec4 value; } many[2];
         layout(set = 0, binding = 7, rgb10_a2ui) uniform writeonly uimage2D packed_one;
         #include \"more.glsl\"\n";
@@ -159,7 +160,7 @@ fn what_no_pass_can_give_is_told_by_its_line_and_with_what_to_declare_instead() 
     };
     let told: Vec<String> = interface.expect("it compiles").bindings.into_iter().map(told).collect();
     let expected = [
-        "test.frag:3 a sampler without image",
+        "test.frag:3 an array of samplers",
         "test.frag:4 an array of blocks",
         "test.frag:5 a storage image of the format `Rgb10a2ui`, which no image of a pipeline has",
         "more.glsl:2 a texel buffer",

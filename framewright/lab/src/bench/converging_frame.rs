@@ -91,7 +91,7 @@ fn tone_maps(shader: &str, pipeline: &Pipeline) -> bool {
     let file = FilePath::of_text(shader);
     let is_shipped = || match &file {
         FilePath::Shipped(_) => true,
-        FilePath::Own(name) => pipeline.assets.shaders.own_texts(&FilePath::from(""), name).is_empty(),
+        FilePath::Own(name) => pipeline.assets.shaders.own_files(&FilePath::from(""), name).is_empty(),
     };
     TONE_MAPPERS.contains(&file.path()) && is_shipped()
 }

@@ -14,16 +14,16 @@ pub(super) fn of(pipeline: &Pipeline) -> String {
     let files: Vec<_> = (0..).map_while(|file| pipeline.sources.file(file)).collect();
     let texts = files.iter().map(|file| unix_lines(&file.text).into_owned().into_bytes());
     let own = files.iter().filter(|file| matches!(file.path, FilePath::Own(_)));
-    let shaders: BTreeSet<String> = own
+    let shaders: BTreeSet<Vec<u8>> = own
         .flat_map(|file| {
             // A sky without a word is drawn by the shader of that name.
             let names = Mentions::of_text(&file.text).strings().chain(["sky"]).collect::<Vec<_>>();
-            let texts = names.into_iter().flat_map(|name| pipeline.assets.shaders.own_texts(&file.path, name));
-            texts.map(|text| unix_lines(&text).into_owned()).collect::<Vec<_>>()
+            let own = names.into_iter().flat_map(|name| pipeline.assets.shaders.own_files(&file.path, name));
+            own.collect::<Vec<_>>()
         })
         .collect();
     let pictures = pipeline.pictures.iter().filter_map(|path| pipeline.assets.textures.bytes(path).ok());
-    let parts: Vec<Vec<u8>> = texts.chain(shaders.into_iter().map(String::into_bytes)).chain(pictures).collect();
+    let parts: Vec<Vec<u8>> = texts.chain(shaders).chain(pictures).collect();
     Digest::of_bytes(parts.iter().map(|part| &**part))
 }
 

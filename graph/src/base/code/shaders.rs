@@ -139,4 +139,21 @@ room! {
     /// It tells what a program brings along for its draws: for each kind of draw once, at places of their own, and without
     /// vertices for dispatches.
     INTERFACE_FILE = 825,
+
+    /// A file of SPIR-V can't be read.
+    ///
+    /// It is cut off, of a version after 1.6, or breaks the rules that every reader relies on. Compile it anew, for Vulkan 1.3.
+    SPIRV_FILE = 826,
+
+    /// SPIR-V has no such entry point, or several.
+    ///
+    /// A stage is the entry point that is named behind the file, `post.spv:PSMain`, or else the only one of its stage. The help
+    /// lists those that there are.
+    ENTRY_POINT = 827,
+
+    /// A shader samples images by one sampler, and the pass gives them in different ways.
+    ///
+    /// A sampler of its own (`sampler`, HLSL's `SamplerState`) takes filter and address from the images that it samples. Say the same
+    /// `filter`, `mip_filter` and `address` of all of them.
+    SAMPLER_SHARED = 828,
 }

@@ -62,10 +62,12 @@ fn hindrance(
         Err(ShaderProblem::DoesNotCompile { messages }) => {
             format!("it doesn't compile: {}", messages.first().map_or("", |message| &message.text))
         }
-        Err(ShaderProblem::Unsupported { what } | ShaderProblem::Machine { what }) => {
+        Err(
+            ShaderProblem::Unsupported { what } | ShaderProblem::BadModule { what } | ShaderProblem::Machine { what },
+        ) => {
             format!("it can't be used: {what}")
         }
-        Err(ShaderProblem::Missing { .. }) => return None,
+        Err(ShaderProblem::Missing { .. } | ShaderProblem::EntryPoint { .. }) => return None,
     };
     Some(format!("has the shader `{shader}`, and with the macro `DEPTH_ONLY` {wrong}"))
 }

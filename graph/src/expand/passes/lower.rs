@@ -5,8 +5,8 @@ use super::{targets, transfers, work};
 use crate::base::Diagnostic;
 use crate::expand::resources::{Resources, fills, parts};
 use crate::expand::shader::{
-    self, CheckedShaders, coverage, local, params, rotation, sampled_images, stereo, storage, supplied_resources,
-    variant,
+    self, CheckedShaders, coverage, local, params, rotation, sampled_images, samplers, stereo, storage,
+    supplied_resources, variant,
 };
 use crate::frame::{BufferRole, ColorTarget, DepthTarget, Pass, Resource, TransferUse, Work};
 use crate::language::{self, StandIn};
@@ -38,6 +38,7 @@ pub(in crate::expand) fn lower(
         let before = errors.len();
         let mut misspelt = sampled_images::check(resources, pass, &lowered, interface, errors);
         if errors.len() == before {
+            samplers::check(pass, &lowered, interface, errors);
             variant::check_single_sampled(pass, &lowered, &variant, shaders, errors);
             local::check(resources, pass, &lowered, (interface, &variant), shaders, errors);
         }

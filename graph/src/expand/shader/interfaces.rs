@@ -212,7 +212,7 @@ fn given_in(binding: &Binding) -> Option<(&'static str, &'static str, &'static s
         BindingKind::StorageImage { .. } => Some(("a storage image", "an image", "storage")),
         BindingKind::StorageBlock { .. } => Some(("a storage block", "a buffer", "storage")),
         BindingKind::UniformBlock(_) => Some(("a uniform block", "a buffer", "uniform")),
-        BindingKind::Other(_) => None,
+        BindingKind::Sampler { .. } | BindingKind::Other(_) => None,
     }
 }
 
@@ -222,6 +222,12 @@ pub(super) fn declared_otherwise(interface: &ShaderInterface, name: &str) -> Opt
     let binding = arrays::binding(interface, name)?;
     if binding.kind.unbindable().is_some() {
         return Some(None);
+    }
+    if let Some((images, _)) = binding.kind.sampler() {
+        let images = images.iter().map(|image| format!("`{image}`")).collect::<Vec<_>>().join(", ");
+        return Some(Some(format!(
+            "`{name}` is a sampler in the shader: leave it out; what is said of {images} counts"
+        )));
     }
     let (kind, thing, field) = given_in(binding)?;
     Some(Some(format!("`{name}` is {kind} in the shader: give it {thing} in `{field}`")))

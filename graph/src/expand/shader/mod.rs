@@ -1,7 +1,7 @@
 //! What a pass gives meets what its shader declares.
 //!
 //! ```text
-//! variant ─► interfaces ─► sampled_images (arrays, compared_depth) ─► local ─► storage ─► supplied_resources ─► params
+//! variant ─► interfaces ─► sampled_images (arrays, compared_depth), samplers ─► local ─► storage ─► supplied_resources ─► params
 //! ```
 //! `variant` says how the shader is compiled, `interfaces` finds it. The files behind them check one kind of
 //! declaration each. `coverage`, `rotation` and `stereo` find out what else the frame must know of a shader.
@@ -14,6 +14,7 @@ pub(super) mod local;
 pub(super) mod params;
 pub(super) mod rotation;
 pub(super) mod sampled_images;
+pub(super) mod samplers;
 pub(super) mod stereo;
 pub(super) mod storage;
 pub(super) mod supplied_resources;

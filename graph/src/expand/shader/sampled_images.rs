@@ -34,6 +34,7 @@ fn declared(interface: &ShaderInterface, name: &str) -> Option<DeclaredImage> {
             Some(DeclaredImage { shape, adapts: false, input: true, compares: false })
         }
         BindingKind::StorageImage { .. }
+        | BindingKind::Sampler { .. }
         | BindingKind::UniformBlock(_)
         | BindingKind::StorageBlock { .. }
         | BindingKind::Other(_) => None,

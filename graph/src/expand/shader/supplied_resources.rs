@@ -135,7 +135,7 @@ fn resource(shader: &Name, binding: &Binding, supplied: &[SuppliedResource], err
     let here = |message: String| {
         Diagnostic::new(Code::DRAW_SOURCE_LACKS, *span, message).choice(OutsideChoice::DrawInterfaces)
     };
-    let Some(there) = supplied.iter().find(|there| there.name == **name) else {
+    let Some(there) = supplied.iter().find(|there| there.is_called(binding)) else {
         let help = in_the_shader(suggestion(name, supplied.iter().map(|there| &*there.name)))
             .or_else(|| Some(format!("what a pass gives belongs into set {PASS_SET}")));
         let unknown = here(format!("{wanted}, which the draw source doesn't bring along"));

@@ -25,12 +25,21 @@ pub(in crate::expand) fn of(resources: &Resources<'_>, pass: &language::Pass) ->
         Some((sample.binding.text.clone(), image.format.components()))
     });
     let components = components.collect();
+    let bindings = (pass.sample.iter().map(|it| &it.binding))
+        .chain(pass.storage.iter().map(|it| &it.binding))
+        .chain(pass.uniform.iter().map(|it| &it.binding));
+    let given = Variant::given_to(
+        pass.shader().map_or("", |shader| &shader.text),
+        bindings.map(|name| &name.text),
+        pass.params.iter().map(|param| &param.name.text),
+    );
     Variant {
         textures,
         sampled,
         components,
         parts,
         alpha_to_coverage: covers_samples(resources, pass),
+        given,
         ..Variant::default()
     }
 }

@@ -67,7 +67,7 @@ impl Context<'_> {
         groups_at: Option<Leaf<'_>>,
         what: impl Display,
     ) -> Option<FieldValue<Work>> {
-        let shader = self.reader.outside_name(leaf, "a shader");
+        let shader = self.reader.stage(leaf);
         let Some(groups_at) = groups_at else {
             self.reader.wrong(Code::GROUPS,
                 leaf,

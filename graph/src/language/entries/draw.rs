@@ -1,13 +1,13 @@
 //! `draw`: the draw of a raster pass.
 
 use super::casters;
-use super::parts;
 use super::values::MANY;
+use super::{parts, shader};
 use crate::base::Code;
 use crate::frame::{Draw, DrawList};
 use crate::language::model::Work;
 use crate::language::scope::{Context, FieldValue, combined};
-use crate::ron::{Form, Leaf, Name, PlainForm, Reader, Word, WordContents, Words, names};
+use crate::ron::{Form, Leaf, Name, Reader, Word, WordContents, Words, names};
 use std::fmt::Display;
 
 /// The form of `draw`.
@@ -33,7 +33,7 @@ static DRAWS: Words = Words {
         Word::alone("Sky", "The scene's sky, by the shader `sky` unless `shader` names another."),
         Word::new(
             "FullScreen",
-            &[WordContents::Values(&[Form::Plain(PlainForm::Outside)])],
+            &[WordContents::Values(&[shader::STAGE]), WordContents::Fields(shader::fields)],
             &["FullScreen(\"shader\")"],
             "Every pixel, by this shader.",
         ),
@@ -83,7 +83,11 @@ impl Context<'_> {
         }
         let (draw, verb) = match word {
             "FullScreen" => {
-                let [own]: [Leaf<'_>; 1] = self.reader.inside(leaf, rest, "FullScreen(\"shader\")")?;
+                let stages = rest.filter(|rest| rest.fields().is_some_and(|mut fields| fields.next().is_some()));
+                let named = match stages {
+                    Some(_) => None,
+                    None => Some(self.reader.inside::<[Leaf<'_>; 1]>(leaf, rest, "FullScreen(\"shader\")")?[0]),
+                };
                 if let Some(second) = shader {
                     self.reader.wrong(
                         Code::FIELD_UNFIT,
@@ -93,7 +97,11 @@ impl Context<'_> {
                     );
                     return None;
                 }
-                let shader = self.reader.outside_name(own, "a shader")?;
+                let shader = match (named, stages) {
+                    (Some(named), _) => self.reader.stage(named)?,
+                    // `FullScreen(fragment: "post.spv")` has the stages in the word's own parentheses.
+                    (None, stages) => self.reader.stages(stages?)?,
+                };
                 return Some(FieldValue::Constant(Work::Draw { draw: Draw::FullScreen, counts: None, shader }));
             }
             "Sky" => {
@@ -136,7 +144,7 @@ impl Context<'_> {
             );
             return None;
         };
-        let shader = self.reader.outside_name(shader, "a shader")?;
+        let shader = self.reader.shader(shader)?;
         Some(draw.map(move |(draw, counts)| Work::Draw { draw, counts, shader: shader.clone() }))
     }
 }

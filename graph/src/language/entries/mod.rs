@@ -24,6 +24,7 @@ pub(crate) mod presets;
 pub(crate) mod repeat;
 pub(crate) mod resolves;
 pub(crate) mod settings;
+pub(crate) mod shader;
 pub(crate) mod sizes;
 pub(crate) mod stand_ins;
 pub(crate) mod targets;

@@ -3,7 +3,7 @@
 use super::condition::CONDITION;
 use super::repeat::REPEAT;
 use super::stand_ins::OTHERWISE;
-use super::{bindings, dispatch, draw, parts, targets, transfer, views};
+use super::{bindings, dispatch, draw, parts, shader, targets, transfer, views};
 use crate::fields;
 use crate::ron::{Leaf, PlainForm};
 
@@ -22,8 +22,8 @@ fields! {
         pub(crate) repeat: Option<Leaf<'src>> => REPEAT,
         /// It draws.
         pub(crate) draw: Option<Leaf<'src>> => draw::DRAW,
-        /// It runs a compute shader, `NAME.comp`.
-        pub(crate) dispatch: Option<Leaf<'src>> => Form::Plain(PlainForm::Outside),
+        /// It runs a compute shader, `NAME.comp`, or SPIR-V.
+        pub(crate) dispatch: Option<Leaf<'src>> => shader::STAGE,
         /// It copies bits as they are: texels to texels, bytes to bytes, or rows of texels without gaps to or from a buffer.
         pub(crate) copy: Option<Leaf<'src>> => transfer::COPY,
         /// It copies an image and scales it.
@@ -34,7 +34,7 @@ fields! {
         /// scope, where its shader is the one of this name if there is one; else outside.
         pub(crate) custom: Option<Leaf<'src>> => Form::Plain(PlainForm::Outside),
         /// The shader of the draw.
-        pub(crate) shader: Option<Leaf<'src>> => Form::Plain(PlainForm::Outside),
+        pub(crate) shader: Option<Leaf<'src>> => shader::SHADER,
         /// The number of workgroups of the dispatch.
         pub(crate) groups: Option<Leaf<'src>> => dispatch::WORKGROUPS,
         /// Images that its shaders sample, by the shader's names.

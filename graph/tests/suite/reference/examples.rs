@@ -65,6 +65,7 @@ pub(crate) fn whole(form: &str, example: &str) -> String {
         "Part" => pass(&format!("custom: \"it\", writes: [\"target\"], reads: [{example}]")),
         "Sample" => draw(&format!("color: [\"target\"], sample: {{\"source\": {example}}}")),
         "Storage" => draw(&format!("color: [\"target\"], storage: {{\"source\": {example}}}")),
+        "Stages" => pass(&format!("draw: Vertices(3), shader: {example}, color: [\"target\"]")),
         "ColorTarget" => draw(&format!("color: [{example}]")),
         "DepthTarget" => draw(&format!("depth: {example}")),
         "Stencil" => draw(&format!("depth: (image: \"depth\", stencil: {example})")),

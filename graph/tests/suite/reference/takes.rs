@@ -19,6 +19,7 @@ pub(crate) fn takes(form: &Form, places: &Places) -> String {
         Form::Plain(PlainForm::Number) | Form::Number => "a number".to_owned(),
         Form::Plain(PlainForm::Text) => "a text".to_owned(),
         Form::Plain(PlainForm::Name | PlainForm::Outside) => "a name".to_owned(),
+        Form::Plain(PlainForm::Shader) => "the name of [a shader](#shaders)".to_owned(),
         Form::Whole(least, most) => format!("a whole number, {} to {}", digits(*least), digits(*most)),
         Form::Listed(numbers) => any_of(numbers.iter().map(ToString::to_string).collect()),
         Form::Expression("a condition") => "a [condition](#expressions)".to_owned(),

@@ -22,6 +22,7 @@ fn texture(name: &str, binding: u32, multisampled: bool, component: Component) -
         kind,
         length: None,
         adapts: false,
+        separate: false,
         stages: Stages::FRAGMENT_SHADER,
     }
 }
@@ -50,6 +51,7 @@ fn params(members: &[(&str, &str)]) -> Binding {
         kind,
         length: None,
         adapts: false,
+        separate: false,
         stages: Stages::FRAGMENT_SHADER,
     }
 }
@@ -87,6 +89,7 @@ fn lit(discards: bool) -> ShaderInterface {
         kind,
         length: None,
         adapts: false,
+        separate: false,
         stages: Stages::VERTEX_SHADER | Stages::FRAGMENT_SHADER,
     };
     let view = frame(0, "view", BindingKind::UniformBlock(Block::default()));
@@ -110,7 +113,7 @@ fn lit(discards: bool) -> ShaderInterface {
 
 fn block(name: &str, binding: u32, readable: bool, writable: bool, stages: Stages) -> Binding {
     let kind = BindingKind::StorageBlock { readable, writable, bytes: 0 };
-    Binding { set: 0, binding, name: name.to_owned(), kind, length: None, adapts: false, stages }
+    Binding { set: 0, binding, name: name.to_owned(), kind, length: None, adapts: false, separate: false, stages }
 }
 
 fn storage_image(name: &str, dimension: Dimension, format: Option<Format>, readable: bool) -> Binding {
@@ -124,6 +127,7 @@ fn storage_image(name: &str, dimension: Dimension, format: Option<Format>, reada
         kind,
         length: None,
         adapts: false,
+        separate: false,
         stages: Stages::COMPUTE_SHADER,
     }
 }
@@ -155,6 +159,7 @@ fn uniform_block(name: &str, bytes: u32) -> Binding {
         kind,
         length: None,
         adapts: false,
+        separate: false,
         stages: Stages::COMPUTE_SHADER,
     }
 }
@@ -237,6 +242,7 @@ fn of_frame(binding: u32, name: &str, kind: BindingKind) -> Binding {
         kind,
         length: None,
         adapts: false,
+        separate: false,
         stages: Stages::FRAGMENT_SHADER,
     }
 }
@@ -481,6 +487,7 @@ impl ShaderInterfaces for Table {
                 kind: BindingKind::StorageBlock { readable: true, writable: true, bytes: 0 },
                 length: None,
                 adapts: false,
+                separate: false,
                 stages: Stages::FRAGMENT_SHADER,
             }]),
             "misplaced" => {

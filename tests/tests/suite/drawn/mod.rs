@@ -46,6 +46,7 @@ mod shadows;
 mod shipped_numbers;
 mod sky;
 mod snow;
+mod spirv;
 mod stereo;
 mod taa;
 mod temporal_noise;

@@ -1,0 +1,139 @@
+//! The files of stages: GLSL or SPIR-V, found by the names of shaders.
+
+use super::files::{ShaderFiles, SourceFile};
+use super::mentioned_names::MentionedNames;
+use super::module_file::ModuleFile;
+use super::text;
+use crate::base::ShaderStage;
+use framewright_graph::base::{FilePath, NoFile, unix_lines};
+use framewright_graph::frame::Draw;
+use framewright_graph::shader::{ShaderProblem, StageName};
+use std::collections::{BTreeSet, HashMap};
+use std::sync::Arc;
+
+/// A stage's own file.
+pub(super) struct StageSource {
+    pub(super) found: SourceFile,
+    /// The names in the file that decide how it is compiled for a pass.
+    pub(super) mentioned: MentionedNames,
+    /// The SPIR-V in it; `None`: it is GLSL.
+    pub(super) module: Option<ModuleFile>,
+}
+
+/// The files of stages, each read once.
+pub(super) struct StageSources {
+    pub(super) files: ShaderFiles,
+    known: HashMap<String, Result<Option<Arc<StageSource>>, ShaderProblem>>,
+}
+
+impl StageSources {
+    pub(super) fn new(files: ShaderFiles) -> StageSources {
+        StageSources { files, known: HashMap::new() }
+    }
+
+    /// The file of a stage, by its name; `None` if there is none.
+    pub(super) fn source(&mut self, file: &str) -> Result<Option<Arc<StageSource>>, ShaderProblem> {
+        if let Some(known) = self.known.get(file) {
+            return known.clone();
+        }
+        let source = self.find_source(file);
+        self.known.insert(file.to_owned(), source.clone());
+        source
+    }
+
+    fn find_source(&self, file: &str) -> Result<Option<Arc<StageSource>>, ShaderProblem> {
+        let path = FilePath::of_text(file);
+        let (found, module) = if StageName::of_text(file).is_spirv() {
+            let Some((found, bytes)) = self.files.find_module(&path)? else { return Ok(None) };
+            let bad = |what: String| ShaderProblem::BadModule { what: format!("{}: {what}", found.shown) };
+            let module = ModuleFile::read(&bytes).map_err(bad)?;
+            (found, Some(module))
+        } else {
+            let Some(found) = self.files.find(&path)? else { return Ok(None) };
+            (found, None)
+        };
+        let mentioned = MentionedNames::by_stage(&self.files, &found);
+        Ok(Some(Arc::new(StageSource { found, mentioned, module })))
+    }
+
+    /// As [`super::ShaderLibrary::own_files`].
+    pub(super) fn own_files(&self, from: &FilePath, name: &str) -> Vec<Vec<u8>> {
+        if let StageName::Spirv { file, .. } = StageName::of_text(name) {
+            let found = |place: FilePath| self.files.find_module(&place).ok().flatten().map(|(_, bytes)| bytes);
+            let beside =
+                from.beside(&file).ok().filter(|it| it.folder().is_empty() || self.files.may_read(it.folder()));
+            return beside.and_then(found).or_else(|| found(FilePath::Own(file))).into_iter().collect();
+        }
+        let stages = ShaderStage::ALL.map(|stage| stage.file_of(name));
+        let usual = Draw::usual_vertex_shaders().map(str::to_owned);
+        let beside = stages.iter().filter_map(|file| from.beside(file).ok());
+        let beside = beside.filter(|file| file.folder().is_empty() || self.files.may_read(file.folder()));
+        let places = beside.chain(stages.iter().chain(&usual).map(|file| FilePath::Own((&**file).into())));
+        let own = |file: &SourceFile| matches!(file.path, FilePath::Own(_));
+        let found = places.filter_map(|file| self.files.find(&file).ok().flatten()).filter(own);
+        let with_included = found.flat_map(|file| {
+            let included = text::included(&self.files, &file);
+            std::iter::once(file).chain(included)
+        });
+        let texts = with_included.filter(own).map(|file| unix_lines(&file.text).into_owned().into_bytes());
+        texts.collect::<BTreeSet<_>>().into_iter().collect()
+    }
+
+    /// That there is no such stage.
+    pub(super) fn lacking(&self, name: &StageName, stage: ShaderStage) -> ShaderProblem {
+        self.missing(&FilePath::of_text(&name.to_string()), name, stage)
+    }
+
+    /// The stage `name` as the file `from` calls it, by the name under which it is found.
+    pub(super) fn located(
+        &mut self,
+        from: &FilePath,
+        name: &StageName,
+        stage: ShaderStage,
+    ) -> Result<Option<StageName>, ShaderProblem> {
+        let (file, entry) = match name {
+            StageName::Glsl(name) => (name, None),
+            StageName::Spirv { file, entry } => (file, entry.clone()),
+        };
+        let named = |file: &str| match name {
+            StageName::Glsl(_) => StageName::Glsl(file.into()),
+            StageName::Spirv { .. } => StageName::Spirv { file: file.into(), entry: entry.clone() },
+        };
+        let none = |_: NoFile| ShaderProblem::Unsupported { what: format!("`{file}` is no name of a shader") };
+        let beside = match from {
+            FilePath::Shipped(_) => FilePath::Shipped(file.clone()),
+            FilePath::Own(_) => from.beside(file).map_err(none)?,
+        };
+        // A file that the user named by hand may lie in a folder outside: nothing is looked for there.
+        if from.folder().is_empty() || self.files.may_read(from.folder()) {
+            let found = named(&beside.to_string());
+            if self.source(&file_of(&found, stage))?.is_some() {
+                return Ok(Some(found));
+            }
+        }
+        match from {
+            FilePath::Own(_) if self.source(&file_of(name, stage))?.is_some() => Ok(Some(name.clone())),
+            _ => Ok(None),
+        }
+    }
+
+    /// That the file `from` names no shader that there is.
+    pub(super) fn missing(&self, from: &FilePath, name: &StageName, stage: ShaderStage) -> ShaderProblem {
+        let looked_in = self.files.places(from);
+        let known = match name {
+            StageName::Glsl(_) => self.files.known_shaders(from, stage.facts().ending),
+            StageName::Spirv { .. } => {
+                self.files.known_shaders(from, ".spv").into_iter().map(|name| name + ".spv").collect()
+            }
+        };
+        ShaderProblem::Missing { looked_in, known }
+    }
+}
+
+/// The file of a stage.
+pub(super) fn file_of(name: &StageName, stage: ShaderStage) -> String {
+    match name {
+        StageName::Glsl(name) => stage.file_of(name),
+        StageName::Spirv { file, .. } => file.to_string(),
+    }
+}
