@@ -200,7 +200,10 @@ mod tests {
     #[test]
     fn what_no_buffer_holds_is_named() {
         let fault = |inputs: &[VertexInput], buffers| VertexLayout::of(inputs, buffers).expect_err("no layout").message;
-        assert_eq!(fault(&[input(0, 0, "dvec2")], 1), "the vertex attribute `a00` is a dvec2");
+        assert_eq!(
+            fault(&[input(0, 0, "dvec2")], 1),
+            "the vertex attribute `a00` is a dvec2, and vertices hold numbers of 32 bits"
+        );
         let mixed = "the vertex attribute `a01` is a int, and another one at location 0 is of another type";
         assert_eq!(fault(&[input(0, 0, "float"), input(0, 1, "int")], 1), mixed);
         let wanted = "it has 2 vertex buffers for 1 vertex attributes: one buffer, or one for each";
