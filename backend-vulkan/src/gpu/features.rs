@@ -151,8 +151,11 @@ const NEEDED_FEATURES: [OptionalFeature; 29] = [
     }),
 ];
 
+/// Whether a bit of a device's subgroup properties is set.
+type IsSet = fn(Subgroups) -> bool;
+
 /// What devices do with subgroups beyond what each does: Vulkan's name of the property with its bit, and whether it is set.
-const SUBGROUPS: [(&str, fn(Subgroups) -> bool); 10] = {
+const SUBGROUPS: [(&str, IsSet); 10] = {
     use vk::{ShaderStageFlags as Stage, SubgroupFeatureFlags as Does};
     [
         ("subgroupSupportedOperations.VOTE", |it| it.operations.contains(Does::VOTE)),

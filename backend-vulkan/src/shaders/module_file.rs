@@ -64,7 +64,7 @@ impl ModuleFile {
         let (Some(entry), None) = (wanted.next(), wanted.next()) else {
             let others = self.entry_points().filter(|entry| entry.model != facts.model);
             return Err(ShaderProblem::EntryPoint {
-                file: file.to_owned(),
+                file: file.into(),
                 stage: facts.name,
                 named: named.map(str::to_owned),
                 of_stage: of_stage.iter().map(|entry| entry.name.to_owned()).collect(),

@@ -438,15 +438,15 @@ pub enum ShaderProblem {
     /// Its SPIR-V has no entry point of that name and stage, or several of the stage.
     EntryPoint {
         /// The file.
-        file: String,
+        file: Box<str>,
         /// The stage: `fragment`.
         stage: &'static str,
         /// The entry point that was named, if one was.
         named: Option<String>,
         /// All entry points of the stage.
-        of_stage: Vec<String>,
+        of_stage: Box<[String]>,
         /// Those of other stages, each with its stage.
-        others: Vec<(String, &'static str)>,
+        others: Box<[(String, &'static str)]>,
     },
     /// Nothing is known of it: the machine doesn't let it be read or compiled.
     Machine {

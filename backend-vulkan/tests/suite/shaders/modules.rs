@@ -167,8 +167,8 @@ fn a_stage_of_another_module_is_joined_and_the_usual_one_else() {
 fn an_entry_point_that_is_missing_or_not_the_only_one_is_an_error_that_lists_them() {
     let point = |problem: Result<ShaderInterface, ShaderProblem>| match problem {
         Err(ShaderProblem::EntryPoint { file, stage, named, of_stage, others }) => {
-            assert_eq!(file, "post_wgsl.spv");
-            (stage, named, of_stage, others.len())
+            assert_eq!(*file, *"post_wgsl.spv");
+            (stage, named, of_stage.into_vec(), others.len())
         }
         other => panic!("{other:?}"),
     };
@@ -328,5 +328,5 @@ fn an_entry_point_of_another_stage_alone_is_none() {
     });
     let refused = of_modules(&[("test.spv", &vertex)]).draw_shader("test.spv", Draw::FullScreen, &Variant::default());
     let Err(ShaderProblem::EntryPoint { others, .. }) = refused else { panic!("{refused:?}") };
-    assert_eq!(others, [("PSMain".to_owned(), "geometry")]);
+    assert_eq!(*others, [("PSMain".to_owned(), "geometry")]);
 }
