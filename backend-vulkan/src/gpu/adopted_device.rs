@@ -78,11 +78,10 @@ impl Device {
         let (Some(families), true) = (families, without.is_empty()) else {
             return Err(Error::NotEnabled { device: summary.name, missing: without });
         };
-        let local_read = has.local_read() && on(program.device_extensions, khr::dynamic_rendering_local_read::NAME);
         let presents = instance.surfaces && on(program.device_extensions, khr::swapchain::NAME);
         let made = CreatedDevice {
             raw: program.device.clone(),
-            features: Features::used(&mut has, local_read),
+            features: Features::used(has, |name| on(program.device_extensions, name)),
             presents,
             queues: program.queues.to_vec(),
             families,

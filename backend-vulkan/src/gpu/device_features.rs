@@ -1,9 +1,9 @@
 //! What a program switches on when it makes a device for this crate.
 
 use super::features::Features;
-use super::minimum::{has_local_read, missing};
+use super::minimum::missing;
 use crate::base::Error;
-use ash::{khr, vk};
+use ash::vk;
 use std::ffi::CStr;
 
 /// What a program creates a device with that this crate is to [adopt](crate::Device::adopt): the features of
@@ -32,9 +32,8 @@ impl DeviceFeatures {
             let name = properties.device_name_as_c_str().unwrap_or_default();
             return Err(Error::Lacking { device: name.to_string_lossy().into_owned(), missing });
         }
-        let local_read = has_local_read(instance, physical);
-        let features = Features::used(&mut Features::of(instance, physical, false), local_read);
-        let extensions = if local_read { vec![khr::dynamic_rendering_local_read::NAME] } else { Vec::new() };
+        let features = Features::used(Features::of(instance, physical), |_| true);
+        let extensions = features.extensions();
         Ok(DeviceFeatures { features, extensions })
     }
 

@@ -1,6 +1,8 @@
 //! The features that a device must have, and those that are used where it has them.
 
-use ash::vk;
+use super::minimum::has_extensions;
+use ash::{khr, vk};
+use std::ffi::CStr;
 use std::marker::PhantomData;
 
 /// Feature structures in the order in which they are chained.
@@ -11,6 +13,7 @@ pub(crate) struct Features {
     v1_2: vk::PhysicalDeviceVulkan12Features<'static>,
     v1_3: vk::PhysicalDeviceVulkan13Features<'static>,
     local_read: vk::PhysicalDeviceDynamicRenderingLocalReadFeaturesKHR<'static>,
+    barycentric: vk::PhysicalDeviceFragmentShaderBarycentricFeaturesKHR<'static>,
     subgroups: Subgroups,
 }
 
@@ -68,16 +71,19 @@ const MINIMUM_FEATURES: [(&str, Flag); 12] = [
     ("sampleRateShading", |it| &mut it.core.sample_rate_shading),
 ];
 
-/// What is used beyond the minimum: Vulkan's name, the purpose, the flag. Local reads need an extension, and stand apart.
+/// Profiles tell of it by the number of clip distances.
+const CLIP_DISTANCE: &str = "shaderClipDistance";
+
+/// What is used beyond the minimum: Vulkan's name, the purpose, the flag. Local reads stand apart: they are no row of profiles.
 const OPTIONAL_FEATURES: [OptionalFeature; 4] = [
-    ("shaderClipDistance", "two eyes in one draw, side by side", |it| &mut it.core.shader_clip_distance),
+    (CLIP_DISTANCE, "clip distances; two eyes in one draw, side by side", |it| &mut it.core.shader_clip_distance),
     ("pipelineStatisticsQuery", "counts of fragment shaders that ran", |it| &mut it.core.pipeline_statistics_query),
     ("multiview", "two eyes in one draw, in layers", |it| &mut it.v1_1.multiview),
     ("shaderOutputLayer", "two eyes by instances, in layers", |it| &mut it.v1_2.shader_output_layer),
 ];
 
 /// The same that pipelines can need by their shaders and draws: profiles tell of these.
-const NEEDED_FEATURES: [OptionalFeature; 29] = [
+const NEEDED_FEATURES: [OptionalFeature; 31] = [
     ("imageCubeArray", "shaders that see several cubes at once", |it| &mut it.core.image_cube_array),
     (
         "shaderSampledImageArrayDynamicIndexing",
@@ -140,6 +146,10 @@ const NEEDED_FEATURES: [OptionalFeature; 29] = [
     ("shaderDrawParameters", "the base vertex, base instance and number of a draw", |it| {
         &mut it.v1_1.shader_draw_parameters
     }),
+    ("shaderCullDistance", "triangles that a vertex shader leaves out", |it| &mut it.core.shader_cull_distance),
+    ("fragmentShaderBarycentric", "places within a triangle, in fragment shaders", |it| {
+        &mut it.barycentric.fragment_shader_barycentric
+    }),
     ("geometryShader", "numbers of primitives in fragment shaders", |it| &mut it.core.geometry_shader),
     ("shaderSubgroupExtendedTypes", "operations of subgroups on numbers that don't have 32 bits", |it| {
         &mut it.v1_2.shader_subgroup_extended_types
@@ -149,6 +159,12 @@ const NEEDED_FEATURES: [OptionalFeature; 29] = [
     ("vulkanMemoryModelDeviceScope", "what other workgroups see, in the Vulkan memory model", |it| {
         &mut it.v1_2.vulkan_memory_model_device_scope
     }),
+];
+
+/// Features that come with an extension of the device: its name, and the flag. They are used where a device has them.
+const OF_EXTENSIONS: [(&CStr, Flag); 2] = [
+    (khr::dynamic_rendering_local_read::NAME, |it| &mut it.local_read.dynamic_rendering_local_read),
+    (khr::fragment_shader_barycentric::NAME, |it| &mut it.barycentric.fragment_shader_barycentric),
 ];
 
 /// Whether a bit of a device's subgroup properties is set.
@@ -172,16 +188,21 @@ const SUBGROUPS: [(&str, IsSet); 10] = {
 };
 
 impl Features {
-    /// The features of `physical`. `local_read`: whether its extension is there.
-    pub(crate) fn of(instance: &ash::Instance, physical: vk::PhysicalDevice, local_read: bool) -> Features {
+    /// The features of `physical`.
+    pub(crate) fn of(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Features {
         let mut v1_1 = vk::PhysicalDeviceVulkan11Features::default();
         let mut v1_2 = vk::PhysicalDeviceVulkan12Features::default();
         let mut v1_3 = vk::PhysicalDeviceVulkan13Features::default();
         let mut local = vk::PhysicalDeviceDynamicRenderingLocalReadFeaturesKHR::default();
+        let mut barycentric = vk::PhysicalDeviceFragmentShaderBarycentricFeaturesKHR::default();
+        let [has_local_read, has_barycentric] = has_extensions(instance, physical, OF_EXTENSIONS.map(|(name, _)| name));
         let mut all = vk::PhysicalDeviceFeatures2::default();
         all = all.push_next(&mut v1_1).push_next(&mut v1_2).push_next(&mut v1_3);
-        if local_read {
+        if has_local_read {
             all = all.push_next(&mut local);
+        }
+        if has_barycentric {
+            all = all.push_next(&mut barycentric);
         }
         // SAFETY: `physical` belongs to `instance`, and the chained structures outlive the call.
         unsafe { instance.get_physical_device_features2(physical, &mut all) };
@@ -190,23 +211,29 @@ impl Features {
         v1_2.p_next = std::ptr::null_mut();
         v1_3.p_next = std::ptr::null_mut();
         local.p_next = std::ptr::null_mut();
+        barycentric.p_next = std::ptr::null_mut();
         let subgroups = Subgroups::of(instance, physical);
-        Features { core, v1_1, v1_2, v1_3, local_read: local, subgroups }
+        Features { core, v1_1, v1_2, v1_3, local_read: local, barycentric, subgroups }
     }
 
     /// The features that are switched on: the minimum, and beyond it what [`optional_features`] lists, and local
-    /// reads, where the device has them.
-    pub(crate) fn used(has: &mut Features, local_read: bool) -> Features {
+    /// reads, where the device has them. `extensions`: whether the device may have this extension switched on.
+    pub(crate) fn used(mut has: Features, extensions: impl Fn(&CStr) -> bool) -> Features {
+        for (name, flag) in OF_EXTENSIONS {
+            *flag(&mut has) &= vk::Bool32::from(extensions(name));
+        }
         let mut features = Features::default();
         for (_, flag) in MINIMUM_FEATURES {
             *flag(&mut features) = vk::TRUE;
         }
         for (_, _, flag) in OPTIONAL_FEATURES.into_iter().chain(NEEDED_FEATURES) {
-            *flag(&mut features) = *flag(has);
+            *flag(&mut features) = *flag(&mut has);
+        }
+        for (_, flag) in OF_EXTENSIONS {
+            *flag(&mut features) = *flag(&mut has);
         }
         // With the memory model, atomic operations of all shaders are bound to a workgroup unless this is on too.
         features.v1_2.vulkan_memory_model &= features.v1_2.vulkan_memory_model_device_scope;
-        features.local_read.dynamic_rendering_local_read = local_read.into();
         features.subgroups = has.subgroups;
         features
     }
@@ -331,6 +358,10 @@ impl Features {
                     let it = read!(PhysicalDeviceDynamicRenderingLocalReadFeaturesKHR);
                     on.local_read.dynamic_rendering_local_read = it.dynamic_rendering_local_read;
                 }
+                Is::PHYSICAL_DEVICE_FRAGMENT_SHADER_BARYCENTRIC_FEATURES_KHR => {
+                    let it = read!(PhysicalDeviceFragmentShaderBarycentricFeaturesKHR);
+                    on.barycentric.fragment_shader_barycentric = it.fragment_shader_barycentric;
+                }
                 _ => {}
             }
             next = structure.p_next;
@@ -350,13 +381,24 @@ impl Features {
 
     /// Whether a feature that pipelines can need is switched on. `name` is Vulkan's.
     pub(crate) fn has(&self, name: &str) -> bool {
-        self.needed().any(|known| known == name)
+        name == CLIP_DISTANCE && self.clip_distances() || self.needed().any(|known| known == name)
+    }
+
+    /// A copy, chained to nothing.
+    pub(crate) fn copy(&self) -> Features {
+        let Features { core, v1_1, v1_2, v1_3, local_read, barycentric, subgroups } = *self;
+        Features { core, v1_1, v1_2, v1_3, local_read, barycentric, subgroups }
+    }
+
+    /// The device's extensions that the features come with.
+    pub(crate) fn extensions(&self) -> Vec<&'static CStr> {
+        let mut all = self.copy();
+        OF_EXTENSIONS.into_iter().filter(|(_, flag)| *flag(&mut all) == vk::TRUE).map(|(name, _)| name).collect()
     }
 
     /// Vulkan's names of the features that are switched on, and that pipelines can need.
     pub(crate) fn needed(&self) -> impl Iterator<Item = &'static str> {
-        let Features { core, v1_1, v1_2, v1_3, local_read, subgroups } = *self;
-        let mut all = Features { core, v1_1, v1_2, v1_3, local_read, subgroups };
+        let (mut all, subgroups) = (self.copy(), self.subgroups);
         let features = NEEDED_FEATURES
             .into_iter()
             .filter_map(move |(name, _, flag)| (*flag(&mut all) == vk::TRUE).then_some(name));
@@ -400,12 +442,16 @@ impl Features {
         self.v1_2.p_next = std::ptr::null_mut();
         self.v1_3.p_next = std::ptr::null_mut();
         self.local_read.p_next = std::ptr::null_mut();
+        self.barycentric.p_next = std::ptr::null_mut();
         let chain = vk::PhysicalDeviceFeatures2::default().features(self.core);
-        let chain = chain.push_next(&mut self.v1_1).push_next(&mut self.v1_2).push_next(&mut self.v1_3);
-        match self.local_read.dynamic_rendering_local_read {
-            vk::TRUE => chain.push_next(&mut self.local_read),
-            _ => chain,
+        let mut chain = chain.push_next(&mut self.v1_1).push_next(&mut self.v1_2).push_next(&mut self.v1_3);
+        if self.local_read.dynamic_rendering_local_read == vk::TRUE {
+            chain = chain.push_next(&mut self.local_read);
         }
+        if self.barycentric.fragment_shader_barycentric == vk::TRUE {
+            chain = chain.push_next(&mut self.barycentric);
+        }
+        chain
     }
 }
 

@@ -12,6 +12,7 @@ use crate::base::{Cache, Cancel, Error, convert};
 use ash::{ext, khr, vk};
 use framewright_graph::vulkan::Format;
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
+use std::ffi::CStr;
 use std::mem::ManuallyDrop;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
@@ -78,22 +79,17 @@ impl Gpu {
         cache: Option<&Cache>,
     ) -> Result<Gpu, Error> {
         let families = QueueFamilies::of(&instance.raw, physical).ok_or(Error::NoDevice)?;
-        let has_local_read = minimum::has_local_read(&instance.raw, physical);
-        let mut has = Features::of(&instance.raw, physical, false);
-        let features = Features::used(&mut has, has_local_read);
-        let mut chained = Features::used(&mut has, has_local_read);
+        let features = Features::used(Features::of(&instance.raw, physical), |_| true);
+        let mut chained = features.copy();
         let queue = |family: &u32| vk::DeviceQueueCreateInfo::default().queue_family_index(*family);
         let queues: Vec<_> = families.indices.iter().map(|family| queue(family).queue_priorities(&[1.0])).collect();
         // Without swapchains there is no layout PRESENT_SRC_KHR.
-        let presents = instance.surfaces && minimum::has_extension(&instance.raw, physical, khr::swapchain::NAME);
+        let [has_swapchains] = minimum::has_extensions(&instance.raw, physical, [khr::swapchain::NAME]);
+        let presents = instance.surfaces && has_swapchains;
         let mut subset = portability::subset(&instance.raw, physical);
-        let extensions = [
-            (has_local_read, khr::dynamic_rendering_local_read::NAME),
-            (presents, khr::swapchain::NAME),
-            (subset.is_some(), khr::portability_subset::NAME),
-        ];
-        let extensions: Vec<_> =
-            extensions.into_iter().filter_map(|(there, name)| there.then_some(name.as_ptr())).collect();
+        let extensions = [(presents, khr::swapchain::NAME), (subset.is_some(), khr::portability_subset::NAME)];
+        let extensions = extensions.into_iter().filter_map(|(there, name)| there.then_some(name));
+        let extensions: Vec<_> = features.extensions().into_iter().chain(extensions).map(CStr::as_ptr).collect();
         let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues).enabled_extension_names(&extensions);
         let mut chain = chained.chain();
         let mut info = info.push_next(&mut chain);

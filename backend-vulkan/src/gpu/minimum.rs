@@ -9,17 +9,15 @@ use std::ffi::CStr;
 /// The Vulkan version that devices and the loader must have.
 pub const MINIMUM_VERSION: u32 = vk::API_VERSION_1_3;
 
-/// Whether `physical` offers `VK_KHR_dynamic_rendering_local_read`.
-pub(crate) fn has_local_read(instance: &ash::Instance, physical: vk::PhysicalDevice) -> bool {
-    has_extension(instance, physical, ash::khr::dynamic_rendering_local_read::NAME)
-        && Features::of(instance, physical, true).local_read()
-}
-
-/// Whether `physical` has the device extension of this name.
-pub(crate) fn has_extension(instance: &ash::Instance, physical: vk::PhysicalDevice, name: &CStr) -> bool {
+/// Whether `physical` has the device extensions of these names.
+pub(crate) fn has_extensions<const N: usize>(
+    instance: &ash::Instance,
+    physical: vk::PhysicalDevice,
+    names: [&CStr; N],
+) -> [bool; N] {
     // SAFETY: `physical` belongs to `instance`.
     let extensions = unsafe { instance.enumerate_device_extension_properties(physical) }.unwrap_or_default();
-    extensions.iter().any(|it| it.extension_name_as_c_str() == Ok(name))
+    names.map(|name| extensions.iter().any(|it| it.extension_name_as_c_str() == Ok(name)))
 }
 
 /// All that `physical` lacks of the minimum, by Vulkan's names.
@@ -30,7 +28,7 @@ pub(crate) fn missing(instance: &ash::Instance, physical: vk::PhysicalDevice) ->
         // Its 1.3 features can't even be asked for.
         return vec![format!("Vulkan {} (it has {})", version(MINIMUM_VERSION), version(properties.api_version))];
     }
-    let features = Features::of(instance, physical, false).missing();
+    let features = Features::of(instance, physical).missing();
     let mut missing: Vec<String> = features.iter().map(|name| format!("the feature {name}")).collect();
     match QueueFamilies::of(instance, physical) {
         None => missing.push("a queue for graphics and compute".to_owned()),

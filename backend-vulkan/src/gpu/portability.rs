@@ -3,7 +3,7 @@
 //! The loader lists them only for instances with the flag `ENUMERATE_PORTABILITY_KHR`. A program that opens one must switch on
 //! `VK_KHR_portability_subset`, with those of its features that are used.
 
-use super::minimum::has_extension;
+use super::minimum::has_extensions;
 use ash::{khr, vk};
 use std::ffi::CStr;
 
@@ -20,7 +20,7 @@ pub(super) fn subset(
     instance: &ash::Instance,
     physical: vk::PhysicalDevice,
 ) -> Option<vk::PhysicalDevicePortabilitySubsetFeaturesKHR<'static>> {
-    if !has_extension(instance, physical, khr::portability_subset::NAME) {
+    if !has_extensions(instance, physical, [khr::portability_subset::NAME])[0] {
         return None;
     }
     let mut subset = vk::PhysicalDevicePortabilitySubsetFeaturesKHR::default();

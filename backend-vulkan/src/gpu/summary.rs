@@ -1,7 +1,8 @@
 //! The devices of this machine, and which of them is asked for.
 
+use super::features::Features;
 use super::instance::Instance;
-use super::minimum::{MINIMUM_VERSION, has_local_read, missing};
+use super::minimum::{MINIMUM_VERSION, missing};
 use super::queues::QueueFamilies;
 use super::words::{text, version};
 use crate::base::Error;
@@ -88,7 +89,7 @@ pub(super) fn summary(instance: &Instance, index: usize, physical: vk::PhysicalD
         },
         vulkan: version(properties.api_version),
         queues: queues.into_iter().filter(|(_, there)| *there).map(|(name, _)| name).collect(),
-        local_read: properties.api_version >= MINIMUM_VERSION && has_local_read(&instance.raw, physical),
+        local_read: properties.api_version >= MINIMUM_VERSION && Features::of(&instance.raw, physical).local_read(),
         missing: missing(&instance.raw, physical),
         driver_id: driver.driver_id,
     }

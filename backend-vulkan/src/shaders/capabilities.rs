@@ -38,7 +38,7 @@ const WITHOUT_FORMAT: &[&str] = &["image1D", "image2D", "image3D", "imageCube", 
 const DOT_PRODUCTS: (&str, &[&str]) = ("shaderIntegerDotProduct", &["dotEXT", "dotPacked", "dotAccSat"]);
 
 /// Capabilities that every stage may need on devices that have the feature of this name, and how words of GLSL begin that need them.
-const OF_DEVICES: [(Capability, &str, &[&str]); 34] = [
+const OF_DEVICES: [(Capability, &str, &[&str]); 37] = [
     // Arrays of cubes.
     (Capability::SampledCubeArray, "imageCubeArray", &["samplerCubeArray", "usamplerCubeArray", "isamplerCubeArray"]),
     (Capability::ImageCubeArray, "imageCubeArray", &["imageCubeArray", "uimageCubeArray", "iimageCubeArray"]),
@@ -65,6 +65,13 @@ const OF_DEVICES: [(Capability, &str, &[&str]); 34] = [
     (Capability::ImageGatherExtended, "shaderImageGatherExtended", &["textureGather"]),
     (Capability::DrawParameters, "shaderDrawParameters", &["gl_BaseVertex", "gl_BaseInstance", "gl_DrawID"]),
     (Capability::Geometry, "geometryShader", &["gl_PrimitiveID", "gl_Layer"]),
+    (Capability::ClipDistance, "shaderClipDistance", &["gl_ClipDistance"]),
+    (Capability::CullDistance, "shaderCullDistance", &["gl_CullDistance"]),
+    (
+        Capability::FragmentBarycentricKHR,
+        "fragmentShaderBarycentric",
+        &["gl_BaryCoord", "pervertexEXT", "GL_EXT_fragment_shader_barycentric"],
+    ),
     (Capability::DotProduct, DOT_PRODUCTS.0, DOT_PRODUCTS.1),
     (Capability::DotProductInputAll, DOT_PRODUCTS.0, DOT_PRODUCTS.1),
     (Capability::DotProductInput4x8Bit, DOT_PRODUCTS.0, DOT_PRODUCTS.1),
@@ -92,8 +99,8 @@ const OF_DEVICES: [(Capability, &str, &[&str]); 34] = [
 const SUBGROUPS: &[&str] = &["subgroup", "gl_Subgroup", "GL_KHR_shader_subgroup"];
 
 /// More capabilities, of shaders that draw for both eyes at once.
-const FOR_BOTH_EYES: [Capability; 4] =
-    [Capability::MultiView, Capability::ClipDistance, Capability::ShaderLayer, Capability::ShaderViewportIndexLayerEXT];
+const FOR_BOTH_EYES: [Capability; 3] =
+    [Capability::MultiView, Capability::ShaderLayer, Capability::ShaderViewportIndexLayerEXT];
 
 /// A feature that isn't supported: capabilities, how words of GLSL begin that need them, and what to write instead.
 type UnsupportedFeature = (&'static [Capability], &'static [&'static str], &'static str);
@@ -105,9 +112,9 @@ const UNSUPPORTED: &[UnsupportedFeature] = &[
         "layers and viewports that a vertex shader chooses: draw into each layer by a pass of its own",
     ),
     (
-        &[Capability::ClipDistance, Capability::CullDistance],
-        &["gl_ClipDistance", "gl_CullDistance"],
-        "clip and cull distances: use `discard` in the fragment stage",
+        &[Capability::MultiView],
+        &["gl_ViewIndex"],
+        "the index of a view: `eye_index` says which eye is drawn for, in each way to draw both",
     ),
     (
         &[Capability::RuntimeDescriptorArray],

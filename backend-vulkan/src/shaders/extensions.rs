@@ -1,12 +1,12 @@
-//! The extensions of SPIR-V that stages may declare: those that Vulkan 1.3 has without an extension of its own.
+//! The extensions of SPIR-V that stages may declare: those that Vulkan 1.3 has, and those of features that devices may have.
 
 use super::module::IndexedModule;
 use super::text::{RefusedStage, Words};
 use rspirv::dr::Operand;
 
 /// From the appendix "Vulkan Environment for SPIR-V" of Vulkan's specification. What an extension brings takes a capability, or is
-/// harmless.
-const OF_VULKAN_1_3: [&str; 18] = [
+/// harmless. The last needs an extension of Vulkan's, whose feature the capability asks for.
+const ALLOWED: [&str; 19] = [
     "SPV_KHR_16bit_storage",
     "SPV_KHR_8bit_storage",
     "SPV_KHR_device_group",
@@ -25,6 +25,7 @@ const OF_VULKAN_1_3: [&str; 18] = [
     "SPV_EXT_demote_to_helper_invocation",
     "SPV_EXT_descriptor_indexing",
     "SPV_EXT_shader_viewport_index_layer",
+    "SPV_KHR_fragment_shader_barycentric",
 ];
 
 /// Refuses other extensions, with the word of the text that asks for it.
@@ -36,7 +37,7 @@ pub(super) fn check_extensions(module: &IndexedModule<'_>) -> Result<(), Refused
         Some(Operand::LiteralString(name)) => Some(name.as_str()),
         _ => None,
     });
-    let Some(other) = declared.into_iter().find(|name| !OF_VULKAN_1_3.contains(name)) else { return Ok(()) };
+    let Some(other) = declared.into_iter().find(|name| !ALLOWED.contains(name)) else { return Ok(()) };
     // GL_EXT_subgroup_uniform_control_flow asks for SPV_KHR_subgroup_uniform_control_flow.
     let words = other.splitn(3, '_').nth(2).map_or(Words::None, |name| Words::Ending(name.to_ascii_lowercase()));
     Err(RefusedStage::shown_by(

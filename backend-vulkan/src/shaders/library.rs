@@ -164,7 +164,7 @@ impl ShaderLibrary {
                 interface.take_names(&variant.given);
             }
             // One driver takes no notice of clip distances where there is no fragment stage: docs/drivers.md.
-            let cut = both_eyes(variant).is_some_and(BothEyes::cuts_at_seam);
+            let cut = both_eyes(variant).is_some_and(BothEyes::cuts_at_seam) || interface.needs.iter().any(is_distance);
             let fragment = cut.then(|| eyes::empty_fragment_stage().into());
             return Ok(CompiledShader { vertex: spirv, fragment, interface, usual_vertices, input_attachments });
         }
@@ -281,6 +281,11 @@ impl ShaderLibrary {
             return Ok(CompilerAnswer { spirv, verdict });
         }
         let parts = tells_parts(macros);
+        if both.is_some_and(BothEyes::cuts_at_seam)
+            && text::place(files, found, |word| word == "gl_ClipDistance").is_some()
+        {
+            return Err(unsupported(RefusedStage::beginning(&["gl_ClipDistance"], NOT_AT_SEAM.to_owned())));
+        }
         let text = both.map_or_else(|| found.text.clone(), |both| both.around(&found.text, stage));
         let job = CompileJob { stage, shown: found.shown.clone(), text, macros: macros.clone() };
         let answer = compilers.compile(&job, found, files).map_err(|problem| {
@@ -397,6 +402,15 @@ impl ShaderInterfaces for ShaderLibrary {
 /// Why SPIR-V isn't used in a draw for both eyes.
 const NOT_FOR_BOTH_EYES: &str = "it is drawn for both eyes at once, and SPIR-V isn't told which eye it draws for: draw each eye by \
     itself (`multi-pass`), or write it in GLSL";
+
+/// Why a shader's own clip distances aren't used in a draw for both halves.
+const NOT_AT_SEAM: &str = "it sets clip distances, and a draw for both halves of a picture cuts at their seam by one of its own: choose \
+    `multi-pass`, or eyes in layers";
+
+/// Whether it is the need of a stage with clip or cull distances.
+fn is_distance(need: &Need) -> bool {
+    matches!(need.kind, NeedKind::Feature { name: "shaderClipDistance" | "shaderCullDistance", .. })
+}
 
 /// Whether push constants tell a stage which parts of images are in use.
 fn tells_parts(macros: &Macros) -> bool {

@@ -10,6 +10,7 @@ mod colors;
 mod compile;
 mod compilers;
 mod coverage;
+mod distances;
 mod extensions;
 mod eyes;
 mod files;

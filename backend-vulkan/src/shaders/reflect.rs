@@ -2,7 +2,6 @@
 
 use super::bindings::{bindings, component_of};
 use super::capabilities::check_capabilities;
-use super::coverage;
 use super::extensions::check_extensions;
 use super::eyes::{HANDED_ON, LOCATION};
 use super::module::{IndexedModule, id, number, storage_class};
@@ -10,6 +9,7 @@ use super::needs::{Needed, needs};
 use super::rotation;
 use super::text::RefusedStage;
 use super::varyings::{Varying, varyings, vertex_inputs};
+use super::{coverage, distances};
 use crate::base::{ShaderStage, StageFacts};
 use framewright_graph::shader::{FragmentOutput, PARAMS, PASS_SET, ShaderInterface};
 use rspirv::dr::Operand;
@@ -59,6 +59,7 @@ pub(super) fn reflect(
         module.code().flat_map(|it| &it.operands).filter_map(rspirv::dr::Operand::id_ref_any).collect();
     let StageFacts { writes_attachments: fragment, places_vertices: vertex, .. } = stage.facts();
     let features = check_capabilities(&module, stage, both_eyes)?;
+    distances::check(&module)?;
     check_own_memory(&module)?;
     check_extensions(&module)?;
     rotation::check_constants(&module, stage)?;

@@ -35,6 +35,9 @@ const FULL_SCREEN: &str = r#"(name: "k", draw: FullScreen("k"), color: ["o"])"#;
 const TRIANGLE: &str =
     r#"(name: "k", draw: Vertices(3), shader: "k", color: [(image: "o", clear: (0.0, 0.0, 0.0, 0.0))])"#;
 
+const TRIANGLES: &str =
+    r#"(name: "k", draw: Vertices(6), shader: "k", color: [(image: "o", clear: (0.0, 0.0, 0.0, 0.0))])"#;
+
 /// A compute shader that stores the right colour where `right` is true of the invocation `id`. What needs the feature stands on line 2 or
 /// later.
 fn computed(extensions: &str, declared: &str, right: &str) -> (&'static str, String) {
@@ -238,6 +241,19 @@ fn images_and_draws() -> Vec<Case> {
         gl_Position = vec4(at, float(gl_BaseVertex + gl_BaseInstance + gl_DrawID) + 0.5, 1.0);\n}\n";
     let plain =
         "#version 460\nlayout(location = 0) out vec4 color;\nvoid main() { color = vec4(0.2, 0.4, 0.6, 1.0); }\n";
+    // The second triangle, of another colour, is drawn over the first, and left out.
+    let distances = |name: &str| {
+        format!(
+            "#version 460\nlayout(location = 0) out flat float drawn;\nvoid main() {{\n    const int corner = gl_VertexIndex % 3;\n    \
+             drawn = gl_VertexIndex < 3 ? 1.0 : 0.0;\n    {name}[0] = drawn - 0.5;\n    {name}[1] = 1.0;\n    \
+             gl_Position = vec4(vec2(corner & 1, corner >> 1) * 4.0 - 1.0, 0.5, 1.0);\n}}\n"
+        )
+    };
+    let of_vertex = "#version 460\nlayout(location = 0) in flat float drawn;\nlayout(location = 0) out vec4 color;\n\
+        void main() { color = vec4(0.2, 0.4, 0.6, 1.0) * drawn; }\n";
+    let barycentric = "#version 460\n#extension GL_EXT_fragment_shader_barycentric : require\nlayout(location = 0) out vec4 color;\n\
+        void main() { color = abs(gl_BaryCoordEXT.x + gl_BaryCoordEXT.y + gl_BaryCoordEXT.z - 1.0) < 0.01 && \
+        gl_BaryCoordEXT.x != gl_BaryCoordEXT.y ? vec4(0.2, 0.4, 0.6, 1.0) : vec4(0.0); }\n";
     let model = computed(
         "#pragma use_vulkan_memory_model\n#extension GL_KHR_memory_scope_semantics : require",
         "",
@@ -252,6 +268,21 @@ fn images_and_draws() -> Vec<Case> {
             needs: &["shaderDrawParameters"],
             pass: TRIANGLE,
             stages: vec![("k.vert", vertex.to_owned()), ("k.frag", plain.to_owned())],
+        },
+        Case {
+            needs: &["shaderClipDistance"],
+            pass: TRIANGLES,
+            stages: vec![("k.vert", distances("gl_ClipDistance")), ("k.frag", of_vertex.to_owned())],
+        },
+        Case {
+            needs: &["shaderCullDistance"],
+            pass: TRIANGLES,
+            stages: vec![("k.vert", distances("gl_CullDistance")), ("k.frag", of_vertex.to_owned())],
+        },
+        Case {
+            needs: &["fragmentShaderBarycentric"],
+            pass: FULL_SCREEN,
+            stages: vec![("k.frag", barycentric.to_owned())],
         },
         Case { needs: &["vulkanMemoryModel"], pass: COMPUTED, stages: vec![model] },
     ]
@@ -277,6 +308,9 @@ fn hold(cases: Vec<Case>) {
         // A profile that has all but one of them refuses it.
         for feature in needs {
             let mut profile = Profile::from_ron(SHIPPED_PROFILES[0].1).expect("a shipped profile");
+            if *feature == "shaderClipDistance" {
+                profile.max_clip_distances = Some(0);
+            }
             profile.features = Some(needs.iter().filter(|it| it != &feature).map(|it| (*it).to_owned()).collect());
             place.file("mine.ron", profile.to_ron().expect("written"));
             place

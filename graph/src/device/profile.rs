@@ -255,6 +255,10 @@ impl Profile {
     /// Whether the device has a feature beyond the minimum, by Vulkan's name. Where its features aren't known none is missed.
     #[must_use]
     pub fn has_feature(&self, name: &str) -> bool {
+        // Clip distances have a number of their own.
+        if name == "shaderClipDistance" {
+            return self.max_clip_distances.is_none_or(|most| most > 0);
+        }
         self.features.as_ref().is_none_or(|features| features.iter().any(|it| it == name))
     }
 

@@ -75,6 +75,25 @@ fn refused(text: &str, variant: &Variant) -> String {
     }
 }
 
+/// The seam of two halves that one draw fills is cut by a clip distance of the library's own (DO-4).
+#[test]
+fn clip_distances_of_a_shaders_own_are_refused_where_the_seam_is_cut_by_one() {
+    let vertex = "#version 460\nvoid main() { gl_Position = vec4(1.0);\n    gl_ClipDistance[0] = 1.0; }";
+    let files = Files::of(&[
+        ("test.vert", vertex),
+        ("test.frag", &format!("{HEAD}{DECLARED}void main() {{ color = vec4(1.0); }}")),
+    ]);
+    for way in WAYS {
+        let compiled = files.compiled(&both(way, &[]));
+        if way != (EyeSource::InstanceParity, EyeForm::Halves) {
+            compiled.unwrap_or_else(|problem| panic!("{way:?}: {problem:?}"));
+            continue;
+        }
+        let Err(ShaderProblem::Unsupported { what }) = compiled else { panic!("{way:?}") };
+        assert!(what.contains("test.vert:3: it sets clip distances, and"), "{what}");
+    }
+}
+
 #[test]
 fn locations_between_stages_have_one_limit_in_every_way_to_draw_for_both_eyes() {
     let head = "#version 460\n";
