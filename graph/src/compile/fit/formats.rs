@@ -118,8 +118,7 @@ fn fall_back(frame: &Frame, live: &[u32], needs: &[Needs], supports: &Supports<'
         // Images that are copied texel for texel share one format.
         let format = frame.images[group[0]].format;
         let shape = |image: &usize| frame.images[*image].shape;
-        let lacks =
-            |format: Format, image: &usize| !needs[*image].are_met(supports.of_shape(format, shape(image)));
+        let lacks = |format: Format, image: &usize| !needs[*image].are_met(supports.of_shape(format, shape(image)));
         let Some(first) = group.iter().find(|image| lacks(format, image)) else { continue };
         let usual = group.iter().find_map(|image| frame.images[*image].chosen.as_ref()).map(|chosen| chosen.usual);
         if usual.is_none() && group.iter().any(|image| fixed[*image]) {

@@ -15,9 +15,8 @@ impl<'d> Supports<'d> {
         let mut of = [None; Format::ALL.len()];
         // Backwards, so that the first of several entries counts.
         device.formats.iter().rev().for_each(|support| of[support.format as usize] = Some(support));
-        let lacks = |support: &mut &FormatSupport| {
-            support.format.feature().is_some_and(|feature| !device.has_feature(feature))
-        };
+        let lacks =
+            |support: &mut &FormatSupport| support.format.feature().is_some_and(|feature| !device.has_feature(feature));
         of.iter_mut().for_each(|support| _ = support.take_if(lacks));
         Supports { device, of }
     }
