@@ -75,6 +75,12 @@ pub struct WantedTexels {
 }
 
 impl WantedTexels {
+    /// Those of an image of one mip level and one layer.
+    #[must_use]
+    pub const fn picture(format: Format, extent: [u32; 3]) -> WantedTexels {
+        WantedTexels { format, extent, mips: 1, layers: 1 }
+    }
+
     /// Bytes of one layer of a mip level.
     #[must_use]
     pub fn level_bytes(&self, mip: u32) -> u64 {
