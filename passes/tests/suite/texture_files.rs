@@ -45,7 +45,10 @@ fn eight_bits_get_the_format_of_their_color_space_and_stay_as_they_are() {
     for (space, format) in [(Srgb, Format::R8G8B8A8_SRGB), (Linear, Format::R8G8B8A8_UNORM)] {
         let file = file("a.png", space);
         assert_eq!(textures.info(&file), Ok(TextureInfo::picture([2, 1], format)));
-        assert_eq!(textures.texels(&file, &WantedTexels::picture(format, [2, 1, 1])), Ok(vec![10, 20, 30, 40, 11, 20, 30, 40]));
+        assert_eq!(
+            textures.texels(&file, &WantedTexels::picture(format, [2, 1, 1])),
+            Ok(vec![10, 20, 30, 40, 11, 20, 30, 40])
+        );
     }
     let swapped = textures.texels(&file("a.png", Srgb), &WantedTexels::picture(Format::B8G8R8A8_SRGB, [2, 1, 1]));
     assert_eq!(swapped.expect("texels")[..4], [30, 20, 10, 40]);
@@ -68,7 +71,9 @@ fn sixteen_bits_stay_sixteen_bits() {
 fn encoded_values_become_linear_where_the_format_does_not_decode_them() {
     let picture = bytes(1, 1, |_, _| [188, 0, 255, 188]);
     let (_folder, mut textures) = folder(&[("a.png", encoded(&picture, ImageFormat::Png))]);
-    let texels = textures.texels(&file("a.png", Srgb), &WantedTexels::picture(Format::R32G32B32A32_SFLOAT, [1, 1, 1])).expect("texels");
+    let texels = textures
+        .texels(&file("a.png", Srgb), &WantedTexels::picture(Format::R32G32B32A32_SFLOAT, [1, 1, 1]))
+        .expect("texels");
     let values: Vec<f32> = texels.as_chunks().0.iter().map(|bytes| f32::from_ne_bytes(*bytes)).collect();
     // IEC 61966-2-1; alpha is never encoded.
     for (value, expected) in values.iter().zip([0.502_886, 0.0, 1.0, 188.0 / 255.0]) {
@@ -130,7 +135,8 @@ fn every_set_of_channels_that_is_a_picture_is_read() {
         let file = file("a.exr", Linear);
         let format = Format::R16G16B16A16_SFLOAT;
         assert_eq!(textures.info(&file), Ok(TextureInfo::picture([2, 1], format)), "{channels:?}");
-        let texels = textures.texels(&file, &WantedTexels::picture(Format::R32G32B32A32_SFLOAT, [2, 1, 1])).expect("texels");
+        let texels =
+            textures.texels(&file, &WantedTexels::picture(Format::R32G32B32A32_SFLOAT, [2, 1, 1])).expect("texels");
         let values: Vec<f32> = texels.as_chunks().0.iter().map(|bytes| f32::from_ne_bytes(*bytes)).collect();
         assert_eq!(values, expected.as_flattened(), "{channels:?}");
     }
@@ -166,7 +172,8 @@ fn of_several_layers_the_first_with_colours_is_read() {
         Image::from_layers(attributes, layers).write().non_parallel().to_buffered(&mut bytes).expect("it is written");
         let (_folder, mut textures) = folder(&[("a.exr", bytes.into_inner())]);
         let file = file("a.exr", Linear);
-        let texels = textures.texels(&file, &WantedTexels::picture(Format::R32G32B32A32_SFLOAT, [2, 1, 1])).expect("texels");
+        let texels =
+            textures.texels(&file, &WantedTexels::picture(Format::R32G32B32A32_SFLOAT, [2, 1, 1])).expect("texels");
         f32::from_ne_bytes(texels[..4].try_into().expect("a number"))
     };
     let depth = || layer(&["Z"], 3.0);
@@ -273,7 +280,8 @@ fn damaged_pictures_are_refused_with_words() {
     let mut refused = 0;
     let mut try_it = |name: &str, bytes: Vec<u8>| {
         let (_folder, mut textures) = folder(&[(name, bytes)]);
-        let texels = textures.texels(&file(name, Linear), &WantedTexels::picture(Format::R16G16B16A16_SFLOAT, [8, 8, 1]));
+        let texels =
+            textures.texels(&file(name, Linear), &WantedTexels::picture(Format::R16G16B16A16_SFLOAT, [8, 8, 1]));
         match texels {
             Ok(texels) => assert_eq!(texels.len(), 8 * 8 * 8),
             Err(problem) => {

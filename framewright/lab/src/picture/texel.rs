@@ -105,7 +105,14 @@ fn bits(word: u32, shift: u32, count: u32) -> f32 {
 /// Whether shares of colour are stored in more than 8 bits.
 pub(super) fn is_wide(format: Format) -> bool {
     use Format as F;
-    matches!(format, F::A2R10G10B10_UNORM_PACK32 | F::A2B10G10R10_UNORM_PACK32 | F::R16_UNORM | F::R16G16_UNORM | F::R16G16B16A16_UNORM)
+    matches!(
+        format,
+        F::A2R10G10B10_UNORM_PACK32
+            | F::A2B10G10R10_UNORM_PACK32
+            | F::R16_UNORM
+            | F::R16G16_UNORM
+            | F::R16G16B16A16_UNORM
+    )
 }
 
 /// Red, green and blue of one texel as they are stored, as shares of 65535; a grey is in the first. `None` of formats that
