@@ -9,6 +9,7 @@ use framewright_graph::vulkan::{Accesses, Aspects, Format, Layout, Numeric, Shap
 use framewright_passes::texture_files::TextureFiles;
 use framewright_tests::texture_files::{Dds, DdsTexels, Ktx2};
 use framewright_vulkan::{Device, Executor, ExecutorOptions};
+use std::cell::RefCell;
 use std::collections::BTreeSet;
 use tempfile::TempDir;
 
@@ -80,16 +81,18 @@ const TEXEL: Shaders = &[(
 fn tolerance(format: Format) -> (f32, f32) {
     match format.numeric() {
         Numeric::Sfloat | Numeric::Ufloat => (1.0 / 256.0, 1.0 / 1024.0),
-        // Of the curve's steep end.
-        Numeric::Srgb => (0.02, 1.5 / 255.0),
-        _ => (0.0, 1.6 / 255.0),
+        // Drivers and decoders round the means of two colours in their own ways. Of the curve's steep end.
+        Numeric::Srgb => (0.03, 2.6 / 255.0),
+        Numeric::Snorm => (0.0, 2.6 / 127.0),
+        _ => (0.0, 2.6 / 255.0),
     }
 }
 
 #[test]
 fn random_blocks_look_as_their_decoder_decodes_them_whether_the_device_has_the_format_or_not() {
     let mut on_devices = BTreeSet::new();
-    let tried = std::cell::RefCell::new(&mut on_devices);
+    let tried = RefCell::new(&mut on_devices);
+    let wrong = RefCell::new(Vec::new());
     for format in Format::ALL.iter().copied().filter(|format| format.is_compressed()) {
         let [wide, high] = format.block();
         // Not a whole number of blocks.
@@ -102,7 +105,7 @@ fn random_blocks_look_as_their_decoder_decodes_them_whether_the_device_has_the_f
         let wanted = WantedTexels::picture(Format::R32G32B32A32_SFLOAT, image.extent);
         let expected = floats(&textures.texels(&file(format), &wanted).expect("decoded"));
         let frame = shown(image, [width, height]);
-        let textures = std::cell::RefCell::new(textures);
+        let textures = RefCell::new(textures);
         on_each_driver(|device| {
             let name = &device.summary().name;
             let (found, made) = drawn(device, &mut textures.borrow_mut(), &frame, TEXEL);
@@ -113,15 +116,19 @@ fn random_blocks_look_as_their_decoder_decodes_them_whether_the_device_has_the_f
                 assert_eq!(Some(made), format.decoded());
             }
             let (share, least) = tolerance(format);
-            for (at, (found, expected)) in found.iter().zip(&expected).enumerate() {
-                for component in 0..format.components() as usize {
-                    let (found, expected) = (found[component], expected[component]);
-                    let near = (found - expected).abs() <= share * expected.abs() + least;
-                    assert!(near, "{format} on {name}, texel {at}, component {component}: {found}, not {expected}");
-                }
+            let excess = |found: &f32, expected: &f32| (found - expected).abs() - share * expected.abs() - least;
+            let components = format.components() as usize;
+            let pairs =
+                found.iter().zip(&expected).flat_map(|(found, expected)| found.iter().zip(expected).take(components));
+            let Some((found, expected)) = pairs.max_by(|a, b| excess(a.0, a.1).total_cmp(&excess(b.0, b.1))) else {
+                return;
+            };
+            if excess(found, expected) > 0.0 {
+                wrong.borrow_mut().push(format!("{format} on {name}: {found}, not {expected}"));
             }
         });
     }
+    assert_eq!(wrong.into_inner(), Vec::<String>::new());
     assert!(on_devices.is_empty() || on_devices.len() > 20, "{on_devices:?}");
 }
 
@@ -135,16 +142,10 @@ fn blocks(format: Format, bytes: u64) -> Vec<u8> {
             Format::BC7_UNORM_BLOCK | Format::BC7_SRGB_BLOCK if block[0] == 0 => block[0] = 1,
             // The mode of two endpoints of 10 bits; other values of five bits may be reserved.
             Format::BC6H_UFLOAT_BLOCK | Format::BC6H_SFLOAT_BLOCK => block[0] = block[0] & !31 | 3,
-            _ if format.feature() == Some("textureCompressionASTC_LDR") => void_extent(block),
             _ => {}
         }
     }
     blocks
-}
-
-/// A block of ASTC that is one colour: most random ones are invalid.
-fn void_extent(block: &mut [u8]) {
-    block[..8].copy_from_slice(&[0xFC, 0xFD, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF]);
 }
 
 #[test]
@@ -185,7 +186,7 @@ fn exact(bytes: &[u8], shape: Shape, levels: &[Vec<u8>], shaders: Shaders) {
     assert_eq!((info.extent, info.mips, info.layers, info.shape()), ([4, 4, 1], 3, 6, shape));
     let image = Image::of_file("picture", file(info.format), &info, shape).expect("an image");
     let frame = shown(image, [12, 24]);
-    let textures = std::cell::RefCell::new(textures);
+    let textures = RefCell::new(textures);
     on_each_driver(|device| {
         let (found, _) = drawn(device, &mut textures.borrow_mut(), &frame, shaders);
         for (at, found) in found.iter().enumerate() {
