@@ -34,5 +34,6 @@ pub mod shapes;
 pub mod shipped;
 pub mod sources;
 pub mod sweep;
+pub mod texture_files;
 pub mod wayland_server;
 pub mod x_server;

@@ -45,10 +45,7 @@ impl Readback {
         plane: Aspects,
         mip: u32,
     ) -> Result<Readback, Error> {
-        let texels = mip_extent(descriptor, mip)
-            .iter()
-            .fold(u64::from(descriptor.layers), |all, side| all.saturating_mul(u64::from(*side)));
-        Readback::new(gpu, texels.saturating_mul(plane_bytes(descriptor.format, plane)), plane, mip)
+        Readback::new(gpu, level_bytes(descriptor, plane, mip), plane, mip)
     }
 
     /// Room for a buffer.
@@ -115,6 +112,16 @@ fn to_host() -> vk::MemoryBarrier2<'static> {
 /// Extent of a mip level.
 pub(crate) fn mip_extent(descriptor: &ImageDescriptor, mip: u32) -> [u32; 3] {
     descriptor.extent.map(|side| side.unbounded_shr(mip).max(1))
+}
+
+/// Bytes of one plane of a mip level, all layers together.
+pub(crate) fn level_bytes(descriptor: &ImageDescriptor, plane: Aspects, mip: u32) -> u64 {
+    let extent = mip_extent(descriptor, mip);
+    let bytes = match plane {
+        Aspects::COLOR => descriptor.format.bytes(extent),
+        _ => extent.iter().fold(plane_bytes(descriptor.format, plane), |all, side| all.saturating_mul((*side).into())),
+    };
+    bytes.saturating_mul(descriptor.layers.into())
 }
 
 /// The plane that is read where nobody says which: colour or depth.

@@ -71,16 +71,7 @@ pub(crate) fn copy_between(gpu: &Gpu, commands: vk::CommandBuffer, source: Trans
             // SAFETY: recording outside a scope; the part is in this layout, and the buffer holds its texels.
             unsafe { device.cmd_copy_image_to_buffer2(commands, &info) };
         }
-        (TransferSide::Buffer { buffer, .. }, TransferSide::Image(to)) => {
-            let regions = [rows(to)];
-            let info = vk::CopyBufferToImageInfo2::default()
-                .src_buffer(buffer)
-                .dst_image(to.image)
-                .dst_image_layout(to.layout)
-                .regions(&regions);
-            // SAFETY: recording outside a scope; the part is in this layout, and the buffer holds its texels.
-            unsafe { device.cmd_copy_buffer_to_image2(commands, &info) };
-        }
+        (TransferSide::Buffer { buffer, .. }, TransferSide::Image(to)) => copy_to_image(gpu, commands, (buffer, 0), to),
         (TransferSide::Buffer { buffer, bytes }, TransferSide::Buffer { buffer: to, bytes: to_bytes }) => {
             let regions = [vk::BufferCopy2::default().size(bytes.min(to_bytes))];
             let info = vk::CopyBufferInfo2::default().src_buffer(buffer).dst_buffer(to).regions(&regions);
@@ -88,6 +79,18 @@ pub(crate) fn copy_between(gpu: &Gpu, commands: vk::CommandBuffer, source: Trans
             unsafe { device.cmd_copy_buffer2(commands, &info) };
         }
     }
+}
+
+/// Copies texels without gaps, which begin at an offset in a buffer, to a part of an image.
+pub(super) fn copy_to_image(gpu: &Gpu, commands: vk::CommandBuffer, (buffer, at): (vk::Buffer, u64), to: ImageSide) {
+    let regions = [rows(to).buffer_offset(at)];
+    let info = vk::CopyBufferToImageInfo2::default()
+        .src_buffer(buffer)
+        .dst_image(to.image)
+        .dst_image_layout(to.layout)
+        .regions(&regions);
+    // SAFETY: recording outside a scope; the part is in this layout, and the buffer holds its texels.
+    unsafe { gpu.raw.cmd_copy_buffer_to_image2(commands, &info) };
 }
 
 /// Resolves one image into another.

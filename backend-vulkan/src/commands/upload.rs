@@ -1,8 +1,8 @@
 //! Texels and bytes from the host into images and buffers.
 
 use super::barriers::{barriers, memory_change, state_change};
-use super::readback::mip_extent;
-use super::transfer::{ImageSide, TransferSide, blit, copy_between};
+use super::readback::{level_bytes, mip_extent};
+use super::transfer::{ImageSide, TransferSide, blit, copy_between, copy_to_image};
 use crate::base::{Error, convert};
 use crate::gpu::Gpu;
 use crate::memory::{Image, MemoryUse, RawBuffer};
@@ -29,9 +29,16 @@ const MADE: State = State { stages: Stages::COPY.union(Stages::BLIT), ..WRITTEN 
 pub(crate) const UNUSED: State =
     State { stages: Stages::empty(), accesses: Accesses::empty(), layout: Layout::Undefined };
 
-/// Records the copy of a new image's first level from `staging`, which must live as long as the commands, and of each smaller
-/// one from the level before; all of it is in the layout `ready` then, for the next commands on the queue.
-pub(crate) fn record_upload(gpu: &Gpu, commands: vk::CommandBuffer, image: &Image, staging: &RawBuffer, ready: Layout) {
+/// Records the copy of a new image's first `held` mip levels, one after the other, from `staging`, which must live as long as the
+/// commands, and of each smaller one from the level before; all of it is in the layout `ready` then, for the next commands on the
+/// queue.
+pub(crate) fn record_upload(
+    gpu: &Gpu,
+    commands: vk::CommandBuffer,
+    image: &Image,
+    (staging, held): (&RawBuffer, u32),
+    ready: Layout,
+) {
     let accesses = Accesses::MEMORY_READ.union(Accesses::MEMORY_WRITE);
     let ready = State { stages: Stages::ALL_COMMANDS, accesses, layout: ready };
     let levels = image.descriptor.mips;
@@ -39,18 +46,26 @@ pub(crate) fn record_upload(gpu: &Gpu, commands: vk::CommandBuffer, image: &Imag
     let level = |base_mip: u32| Subresources { base_mip, mips: 1, ..whole };
     let change = |range, from, to| barriers(gpu, commands, &[], &[state_change(image.raw, range, from, to)]);
     change(whole, UNUSED, MADE);
-    let source = TransferSide::Buffer { buffer: staging.raw, bytes: staging.bytes };
-    copy_between(gpu, commands, source, TransferSide::Image(image_side(image, level(0), 0)));
-    for smaller in 1..levels {
+    let mut from = 0;
+    for stored in 0..held {
+        copy_to_image(gpu, commands, (staging.raw, from), image_side(image, level(stored), stored));
+        from += level_bytes(&image.descriptor, Aspects::COLOR, stored);
+    }
+    for smaller in held..levels {
         change(level(smaller - 1), MADE, BLITTED);
         let larger = image_side(image, level(smaller - 1), smaller - 1);
         let larger = ImageSide { layout: vk::ImageLayout::TRANSFER_SRC_OPTIMAL, ..larger };
         blit(gpu, commands, larger, image_side(image, level(smaller), smaller), vk::Filter::LINEAR);
     }
-    if levels > 1 {
-        change(Subresources { mips: levels - 1, ..whole }, BLITTED, ready);
+    let blitted = Subresources { base_mip: held - 1, mips: levels - held, ..whole };
+    if blitted.mips > 0 {
+        change(blitted, BLITTED, ready);
+        change(level(levels - 1), MADE, ready);
     }
-    change(level(levels - 1), MADE, ready);
+    let copied = if blitted.mips > 0 { held - 1 } else { held };
+    if copied > 0 {
+        change(Subresources { mips: copied, ..whole }, MADE, ready);
+    }
 }
 
 /// Where a fill or copy goes in an image that is in the layout for it.

@@ -3,7 +3,7 @@
 use super::executor::Executor;
 use crate::base::Error;
 use crate::commands::{
-    Readback, Texels, first_plane, mip_extent, plane_bytes, rotate_texels, write_buffer, write_image,
+    Readback, Texels, first_plane, level_bytes, mip_extent, plane_bytes, rotate_texels, write_buffer, write_image,
 };
 use crate::memory::{Image, RawBuffer};
 use crate::prepare::{buffer_descriptor, descriptor, initial_queue};
@@ -117,8 +117,7 @@ impl Executor {
             return Err(bad("nothing can be copied to it".to_owned()));
         }
         let sides = mip_extent(&image.descriptor, mip);
-        let texels = sides.iter().fold(u64::from(image.descriptor.layers), |all, side| all * u64::from(*side));
-        let expected = texels * plane_bytes(image.descriptor.format, plane);
+        let expected = level_bytes(&image.descriptor, plane, mip);
         if bytes.len() as u64 != expected {
             return Err(bad(format!("{} bytes were given, {expected} are needed", bytes.len())));
         }

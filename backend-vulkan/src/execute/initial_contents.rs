@@ -2,25 +2,28 @@
 
 use crate::base::{Error, convert};
 use crate::commands::{
-    TransferSide, UNUSED, WRITTEN, barriers, fill, image_side, memory_change, record_upload, state_change,
+    TransferSide, UNUSED, WRITTEN, barriers, fill, image_side, level_bytes, memory_change, record_upload, staged,
+    state_change,
 };
 use crate::gpu::{Gpu, QueueFamily};
 use crate::memory::Image;
-use crate::prepare::{InitialOwner, PhysicalResources, ResourceUses, StagedTexture, initial_owners, initial_queue};
+use crate::prepare::{
+    InitialOwner, PhysicalResources, ResourceUses, StagedTexture, file_of, initial_owners, initial_queue,
+};
 use ash::vk;
 use framewright_graph::plan::{self, BufferId, FirstContents, ImageId, Plan, Queue, Resource, Role};
-use framewright_graph::vulkan::{Accesses, FillValue, Layout, Stages, State, Subresources, Usage};
+use framewright_graph::vulkan::{Accesses, Aspects, FillValue, Layout, Stages, State, Subresources, Usage};
 use std::sync::Arc;
 
 /// Gives first contents to everything that outlives the frame and has none yet. Persistent images and buffers get their initial
-/// value or the texels in `staged`, others are zero unless they were imported. Each is then in the state that the Plan relies on,
+/// value or the texels in `textures`, others are zero unless they were imported. Each is then in the state that the Plan relies on,
 /// and belongs to the queue that uses it first.
 pub(crate) fn initialise(
     gpu: &Arc<Gpu>,
     plan: &Plan,
     uses: &ResourceUses,
     physical: &PhysicalResources,
-    staged: &[StagedTexture],
+    textures: &[StagedTexture],
 ) -> Result<(), Error> {
     let initial = |role: &Role, is_foreign: bool| match role {
         Role::Persistent { before, initial: FirstContents::Value(value), .. } => Some((*before, Some(*value))),
@@ -38,6 +41,10 @@ pub(crate) fn initialise(
     };
     let owners = initial_owners(plan, |id| of_image(id).is_some());
     let transfers = OwnershipTransfers { gpu, physical, owners: &owners };
+    let zero = plan.images.iter().filter(|image| of_image(image.id).is_some() && file_of(image).is_none());
+    let zero = zero.filter(|image| image.format.is_compressed());
+    let zero = zero.map(|image| zero_blocks(gpu, physical.image(image.id, 0), image.id));
+    let zero = zero.collect::<Result<Vec<_>, _>>()?;
     for queue in [Queue::Graphics, Queue::Compute, Queue::Transfer] {
         let family = gpu.queues.families.family(queue);
         if queue != Queue::Graphics && family == gpu.queues.families.graphics {
@@ -47,11 +54,11 @@ pub(crate) fn initialise(
             let images = plan.images.iter().filter(|_| queue == Queue::Graphics);
             for (image, (before, initial)) in images.filter_map(|it| Some((it, of_image(it.id)?))) {
                 let made = physical.image(image.id, 0);
-                match (initial, staged.iter().find(|it| it.image == image.id)) {
-                    (Some(value), _) => set_image(gpu, commands, image, made, before, value),
-                    (None, Some(staged)) => {
-                        record_upload(gpu, commands, made, &staged.buffer, before.layout);
+                match (initial, textures.iter().chain(&zero).find(|it| it.image == image.id)) {
+                    (_, Some(staged)) => {
+                        record_upload(gpu, commands, made, (&staged.buffer, staged.mips), before.layout);
                     }
+                    (Some(value), None) => set_image(gpu, commands, image, made, before, value),
                     (None, None) => {}
                 }
             }
@@ -68,6 +75,14 @@ pub(crate) fn initialise(
         })?;
     }
     Ok(())
+}
+
+/// Blocks of zeros for a whole compressed image, which can't be filled by a clear.
+fn zero_blocks(gpu: &Arc<Gpu>, made: &Image, image: ImageId) -> Result<StagedTexture, Error> {
+    let mips = made.descriptor.mips;
+    let levels = (0..mips).map(|mip| level_bytes(&made.descriptor, Aspects::COLOR, mip));
+    let bytes = usize::try_from(levels.fold(0, u64::saturating_add)).unwrap_or(usize::MAX);
+    Ok(StagedTexture { image, buffer: staged(gpu, "zero blocks", &vec![0; bytes])?, mips })
 }
 
 /// Fills an image and brings it into the state `before`.

@@ -83,7 +83,7 @@ const OPTIONAL_FEATURES: [OptionalFeature; 4] = [
 ];
 
 /// The same that pipelines can need by their shaders and draws: profiles tell of these.
-const NEEDED_FEATURES: [OptionalFeature; 31] = [
+const NEEDED_FEATURES: [OptionalFeature; 34] = [
     ("imageCubeArray", "shaders that see several cubes at once", |it| &mut it.core.image_cube_array),
     (
         "shaderSampledImageArrayDynamicIndexing",
@@ -115,6 +115,9 @@ const NEEDED_FEATURES: [OptionalFeature; 31] = [
     ("shaderZeroInitializeWorkgroupMemory", "shared variables that begin with 0", |it| {
         &mut it.v1_3.shader_zero_initialize_workgroup_memory
     }),
+    ("textureCompressionBC", "textures in the formats BC1 to BC7", |it| &mut it.core.texture_compression_bc),
+    ("textureCompressionETC2", "textures in the formats ETC2 and EAC", |it| &mut it.core.texture_compression_etc2),
+    ("textureCompressionASTC_LDR", "textures in the formats of ASTC", |it| &mut it.core.texture_compression_astc_ldr),
     ("shaderFloat64", "floating point of 64 bits", |it| &mut it.core.shader_float64),
     ("shaderInt64", "integers of 64 bits", |it| &mut it.core.shader_int64),
     ("shaderInt16", "integers of 16 bits", |it| &mut it.core.shader_int16),

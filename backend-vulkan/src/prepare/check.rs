@@ -73,7 +73,10 @@ fn checked_image(gpu: &Gpu, plan: &Plan, image: &Image, poison: bool) -> Result<
             let smaller = vk::FormatFeatureFlags::BLIT_SRC
                 | vk::FormatFeatureFlags::BLIT_DST
                 | vk::FormatFeatureFlags::SAMPLED_IMAGE_FILTER_LINEAR;
-            if file_of(image).is_some() && image.mips > 1 && !gpu.format_features(image.format).contains(smaller) {
+            if file_of(image).is_some_and(|file| !file.stored)
+                && image.mips > 1
+                && !gpu.format_features(image.format).contains(smaller)
+            {
                 return bad(format!("{} can't make the mip levels of `{name}`: {}", gpu.summary.name, image.format));
             }
             let plain = |image: &Image| ImageDescriptor { usage: Usage::empty(), ..self::descriptor(image) };

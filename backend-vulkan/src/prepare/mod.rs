@@ -38,6 +38,6 @@ pub(crate) use physical::PhysicalResources;
 pub(crate) use prepared_step::{Debugging, PreparedPlan};
 pub(crate) use step::{PreparedStep, title};
 pub(crate) use supplied_sets::{SuppliedBlock, SuppliedSet, SuppliedSets};
-pub(crate) use textures::{StagedTexture, stage_textures};
+pub(crate) use textures::{StagedTexture, file_of, stage_textures};
 pub(crate) use uses::ResourceUses;
 pub(crate) use variant::{scope_formats, view_mask};

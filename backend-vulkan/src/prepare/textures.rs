@@ -4,7 +4,7 @@ use crate::base::Error;
 use crate::commands::staged;
 use crate::gpu::Gpu;
 use crate::memory::RawBuffer;
-use framewright_graph::frame::{TextureFile, Textures};
+use framewright_graph::frame::{TextureFile, Textures, WantedTexels};
 use framewright_graph::plan::{FirstContents, Image, ImageId, Plan, Role};
 use std::sync::Arc;
 
@@ -12,6 +12,8 @@ use std::sync::Arc;
 pub(crate) struct StagedTexture {
     pub(crate) image: ImageId,
     pub(crate) buffer: RawBuffer,
+    /// How many mip levels it holds; smaller ones are made from them.
+    pub(crate) mips: u32,
 }
 
 /// The file that an image comes from.
@@ -35,15 +37,16 @@ pub(crate) fn stage_textures(
     files
         .map(|(image, file)| {
             let bad = |problem| Error::Texture { image: image.name.to_string(), path: file.path.to_string(), problem };
-            let texels = textures.texels(file, image.format, image.extent).map_err(bad)?;
-            let expected =
-                image.extent.iter().fold(image.format.texel_bytes(), |all, side| all.saturating_mul(u64::from(*side)));
+            // Smaller levels of a picture are made on the device.
+            let mips = if file.stored { image.mips } else { 1 };
+            let wanted = WantedTexels { format: image.format, extent: image.extent, mips, layers: image.layers };
+            let (texels, expected) = (textures.texels(file, &wanted).map_err(bad)?, wanted.bytes());
             if texels.len() as u64 != expected {
                 let what =
                     format!("the texels of `{}` take {expected} bytes, and {} were provided", image.name, texels.len());
                 return Err(Error::BadResource { what });
             }
-            Ok(StagedTexture { image: image.id, buffer: staged(gpu, &image.name, &texels)? })
+            Ok(StagedTexture { image: image.id, buffer: staged(gpu, &image.name, &texels)?, mips })
         })
         .collect()
 }

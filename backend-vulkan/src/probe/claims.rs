@@ -21,7 +21,10 @@ pub(super) fn claimed_profile(device: &Device) -> Profile {
     let gpu = &device.gpu;
     let (instance, physical, limits) = (&gpu.instance.raw, gpu.physical, &gpu.limits);
     let families = &gpu.queues.families;
-    let formats: Vec<_> = Format::ALL.iter().filter_map(|format| support(instance, physical, *format)).collect();
+    // Formats that a feature brings are there once it is switched on.
+    let is_on = |format: &&Format| format.feature().is_none_or(|feature| gpu.features.has(feature));
+    let formats = Format::ALL.iter().filter(is_on);
+    let formats: Vec<_> = formats.filter_map(|format| support(instance, physical, *format)).collect();
     let model = MemoryModel::fitted(&mut device.memory(), &formats);
     Profile {
         name: gpu.summary.name.clone(),

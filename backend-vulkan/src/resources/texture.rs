@@ -97,7 +97,7 @@ impl Device {
     }
 
     /// A texture of `width` × `height` texels of `format`, rows from the top without padding. With `mips` a whole chain of
-    /// smaller levels is made, each by averaging the one before.
+    /// smaller levels is made, each by averaging the one before. Texels of compressed formats are blocks, and have no such chain.
     ///
     /// # Errors
     /// An extent that is zero or too large, a number of bytes that doesn't fit it, a format that can't be sampled, or no
@@ -117,7 +117,7 @@ impl Device {
         if width == 0 || height == 0 || width > largest || height > largest {
             return Err(bad(format!("both must be from 1 to {largest} on this device")));
         }
-        let expected = u64::from(width) * u64::from(height) * format.texel_bytes();
+        let expected = format.bytes([width, height, 1]);
         if texels.len() as u64 != expected {
             return Err(bad(format!("{} bytes were given, {expected} are needed", texels.len())));
         }
@@ -128,7 +128,8 @@ impl Device {
             } else {
                 Default::default()
             };
-        if format.is_depth() || !self.gpu.format_features(format).contains(needed) {
+        let is_on = format.feature().is_none_or(|feature| self.gpu.features.has(feature));
+        if format.is_depth() || !is_on || !self.gpu.format_features(format).contains(needed) {
             return Err(bad("this device can't upload and filter the format".to_owned()));
         }
         let levels = if mips { u32::BITS - width.max(height).leading_zeros() } else { 1 };
@@ -146,7 +147,7 @@ impl Device {
         let image = Arc::new(Image::with_own_memory(&self.gpu, "texture", &descriptor)?);
         let staging = staged(&self.gpu, "texture upload", texels)?;
         self.gpu.submit_once("uploading a texture", Queue::Graphics, |commands| {
-            record_upload(&self.gpu, commands, &image, &staging, Layout::ShaderReadOnlyOptimal);
+            record_upload(&self.gpu, commands, &image, (&staging, 1), Layout::ShaderReadOnlyOptimal);
         })?;
         let view = image.view(Subresources::all(format, levels, 1), ViewShape::Flat)?;
         Ok(Texture(Arc::new(RawTexture { image, view, sampler: self.gpu.sampler(*sampler, None)? })))

@@ -34,5 +34,6 @@ mod state;
 mod submitting;
 mod subresources;
 mod texture_arrays;
+mod texture_files;
 mod textures;
 mod transfers;

@@ -3,7 +3,7 @@
 use crate::frames::{Shaders, Small, Uses, draw, frame, library, on_each_driver, planned, texels};
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{
-    ColorSpace, Draw, Frame, Image, Lifetime, TextureFile, TextureInfo, TextureProblem, Textures,
+    ColorSpace, Draw, Frame, Image, Lifetime, TextureFile, TextureInfo, TextureProblem, Textures, WantedTexels,
 };
 use framewright_graph::vulkan::{AddressMode, Filter, Format, Sampler, Shape, Subresources};
 use framewright_vulkan::{Device, Error, Executor, ExecutorOptions};
@@ -17,13 +17,13 @@ impl Textures for Table {
         Err(TextureProblem::NotProvided)
     }
 
-    fn texels(&mut self, file: &TextureFile, _: Format, _: [u32; 3]) -> Result<Vec<u8>, TextureProblem> {
+    fn texels(&mut self, file: &TextureFile, _: &WantedTexels) -> Result<Vec<u8>, TextureProblem> {
         if &*file.path == "picture" { Ok(self.0.clone()) } else { Err(TextureProblem::Outside) }
     }
 }
 
 fn picture(format: Format, extent: [u32; 3], mips: u32, path: &str) -> Image {
-    let file = TextureFile { path: path.into(), color_space: ColorSpace::Srgb };
+    let file = TextureFile::picture(path, ColorSpace::Srgb);
     let shape = if extent[2] > 1 { Shape::D3 } else { Shape::D2 };
     let lifetime = Lifetime::File(Arc::new(file));
     Image { extent, shape, mips, lifetime, ..Image::new("picture", format, extent[0], extent[1]) }

@@ -63,7 +63,7 @@ impl MemoryModel {
     /// The bytes of one sample of one layer of one plane.
     fn plane(&self, image: &ImageDescriptor, texel_bytes: u64) -> u64 {
         let level = |mip: u32| {
-            let [width, height, depth] = image.extent_at(mip).map(u64::from);
+            let [width, height, depth] = image.blocks_at(mip).map(u64::from);
             let row = padded(padded(width, self.row_texels.into()).saturating_mul(texel_bytes), self.row_bytes.into());
             let texels = row.saturating_mul(padded(height, self.rows.into())).saturating_mul(depth);
             padded(texels, self.alignment)

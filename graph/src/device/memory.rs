@@ -31,12 +31,18 @@ impl ImageDescriptor {
         extent_at(self.extent, mip)
     }
 
+    /// Width, height and depth of a mip level in what is stored together: texels, or blocks of a compressed format.
+    pub(crate) fn blocks_at(&self, mip: u32) -> [u32; 3] {
+        let ([width, height, depth], [wide, high]) = (self.extent_at(mip), self.format.block());
+        [width.div_ceil(wide), height.div_ceil(high), depth]
+    }
+
     /// Bytes of the texels of a part of it, all samples among them: what reading or writing that part moves.
     pub(crate) fn bytes(&self, part: Subresources) -> u64 {
         let texel = self.format.plane_bytes(part.aspects).unwrap_or_else(|| self.format.texel_bytes());
         let mips = part.mips.min(self.mips.saturating_sub(part.base_mip));
         let layers = part.layers.min(self.layers.saturating_sub(part.base_layer));
-        let texels = |mip| self.extent_at(mip).into_iter().map(u64::from).fold(1, u64::saturating_mul);
+        let texels = |mip| self.blocks_at(mip).into_iter().map(u64::from).fold(1, u64::saturating_mul);
         let texels = (part.base_mip..part.base_mip.saturating_add(mips)).map(texels).fold(0, u64::saturating_add);
         [texel, layers.into(), self.samples.into()].into_iter().fold(texels, u64::saturating_mul)
     }

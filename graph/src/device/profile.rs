@@ -262,9 +262,10 @@ impl Profile {
         self.features.as_ref().is_none_or(|features| features.iter().any(|it| it == name))
     }
 
-    /// The support for `format`; `None` if there is none.
+    /// The support for `format`; `None` if there is none, or the feature that brings the format isn't switched on.
     #[must_use]
     pub fn format(&self, format: Format) -> Option<&FormatSupport> {
-        self.formats.iter().find(|support| support.format == format)
+        let is_on = || format.feature().is_none_or(|feature| self.has_feature(feature));
+        self.formats.iter().find(|support| support.format == format).filter(|_| is_on())
     }
 }

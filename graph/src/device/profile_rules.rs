@@ -202,7 +202,7 @@ impl Check for KnownNeeds {
                 format!("{} is not 1 to {LARGEST_EXTENT} texels wide and high", shown())
             })?;
             // At most 2^16 · 2^16 · 2^6 · 2^4.
-            let texels = u64::from(*width) * u64::from(*height) * u64::from(*samples) * format.least_texel_bytes();
+            let texels = format.least_bytes([*width, *height]) * u64::from(*samples);
             demand((texels..=MOST_BYTES).contains(&needs.bytes), || {
                 format!("{} can't take {} bytes: its texels alone are {texels}", shown(), needs.bytes)
             })?;

@@ -41,7 +41,8 @@ pub use pass::Pass;
 pub(crate) use resource::allocated_extent;
 pub use resource::{Buffer, ChosenFormat, Image, Lifetime, Resolve, ResolveWay, SAMPLE_COUNTS};
 pub use texture::{
-    ColorSpace, NoTextures, TextureFile, TextureInfo, TextureProblem, Textures, format_problem, picture_extent,
+    ColorSpace, NoTextures, TextureFile, TextureInfo, TextureProblem, Textures, WantedTexels, becomes, format_problem,
+    picture_extent,
 };
 pub use uses::{Blend, BufferUse, ColorTarget, DepthTarget, Face, SampledImage, StencilState, Storage, TransferUse};
 pub use view::{Allowances, Eye, EyeForm, Stereo, View, ViewEye, ViewIndex};

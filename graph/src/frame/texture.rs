@@ -1,13 +1,14 @@
 //! Images whose texels come from a file: their description in a frame, and the source of the texels.
 
 use crate::frame::{Image, Lifetime};
-use crate::vulkan::{Format, Numeric, Shape};
+use crate::vulkan::{Format, Numeric, Shape, extent_at, name_of};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// A file whose picture an image holds. Passes only sample it.
+/// A file whose texels an image holds. Passes only sample it.
 ///
-/// The picture of a three-dimensional image of N×N×N texels is a strip of N² × N: N squares from left to right, one for each
+/// A picture (PNG, JPEG, HDR, EXR) is one level of two dimensions, which may be converted. A texture file (KTX2, DDS) holds mip
+/// levels, layers, slices and cube faces as an image does. The picture of a three-dimensional image of N×N×N texels is a strip of N² × N: N squares from left to right, one for each
 /// slice. In a colour table red runs to the right within a square, green downwards, and blue from square to square.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -16,6 +17,17 @@ pub struct TextureFile {
     pub path: Arc<str>,
     /// The colour space of its values.
     pub color_space: ColorSpace,
+    /// Whether it is a texture file, whose levels and layers are stored as an image's; else it is a picture.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub stored: bool,
+}
+
+impl TextureFile {
+    /// A picture's file.
+    #[must_use]
+    pub fn picture(path: &str, color_space: ColorSpace) -> TextureFile {
+        TextureFile { path: path.into(), color_space, stored: false }
+    }
 }
 
 /// The colour space of a picture's file.
@@ -29,13 +41,58 @@ pub enum ColorSpace {
     Linear,
 }
 
-/// The properties of a picture that are known before its texels are read.
+/// The properties of a texture that are known before its texels are read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TextureInfo {
-    /// Width and height in texels.
-    pub extent: [u32; 2],
-    /// The format that holds all of it that can be filtered everywhere, unless the frame chooses another.
+    /// Width, height and depth in texels. The depth of a picture is 1.
+    pub extent: [u32; 3],
+    /// Of a picture the format that holds all of it that can be filtered everywhere, unless the frame chooses another; of a texture
+    /// file the format of its texels, in the colour space that was asked for.
     pub format: Format,
+    /// Mip levels in the file.
+    pub mips: u32,
+    /// Array layers; of cubes six for each.
+    pub layers: u32,
+    /// Whether its layers are the faces of cubes.
+    pub cube: bool,
+    /// Whether it is a texture file: see [`TextureFile::stored`].
+    pub stored: bool,
+    /// The colour space that the file itself names, if it does.
+    pub color_space: Option<ColorSpace>,
+}
+
+/// The texels that an image wants of its file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct WantedTexels {
+    /// The image's format.
+    pub format: Format,
+    /// Its width, height and depth.
+    pub extent: [u32; 3],
+    /// Mip levels: 1 of a picture, since the device makes smaller ones.
+    pub mips: u32,
+    /// Array layers.
+    pub layers: u32,
+}
+
+impl WantedTexels {
+    /// Those of an image of one mip level and one layer.
+    #[must_use]
+    pub const fn picture(format: Format, extent: [u32; 3]) -> WantedTexels {
+        WantedTexels { format, extent, mips: 1, layers: 1 }
+    }
+
+    /// Bytes of one layer of a mip level.
+    #[must_use]
+    pub fn level_bytes(&self, mip: u32) -> u64 {
+        self.format.bytes(extent_at(self.extent, mip))
+    }
+
+    /// Bytes of all of them.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        let levels = (0..self.mips.min(u32::BITS)).map(|mip| self.level_bytes(mip));
+        levels.fold(0, u64::saturating_add).saturating_mul(self.layers.into())
+    }
 }
 
 /// Why a file gives no texture. Text from files inside is not yet escaped.
@@ -56,11 +113,48 @@ pub enum TextureProblem {
     /// The path leads out of the folder.
     #[error("leads out of the folder of the pipeline's files")]
     Outside,
-    /// It is no picture of a kind that can be read, or damaged.
+    /// It is no picture or texture of a kind that can be read, or damaged.
     #[error("is no picture that can be read: {reason}")]
     Damaged {
         /// The decoder's words.
         reason: String,
+    },
+    /// It is compressed with Basis Universal.
+    #[error("holds Basis Universal ({what}), which has to be transcoded first; that isn't done yet")]
+    Basis {
+        /// The part of Basis Universal.
+        what: &'static str,
+    },
+    /// It names another colour space than it is read in.
+    #[error("says that its values are {}: leave `color_space` out", match named {
+        ColorSpace::Srgb => "encoded with the sRGB curve",
+        ColorSpace::Linear => "linear",
+    })]
+    ColorSpace {
+        /// The colour space that it names.
+        named: ColorSpace,
+    },
+    /// Its texels are in a format that no image can have here.
+    #[error("holds {format}, which no image has here")]
+    OtherFormat {
+        /// The file's name or number of the format.
+        format: String,
+    },
+    /// Its shape isn't the image's.
+    #[error("holds {}, and {} is needed", shape_words(*found), shape_words(*expected))]
+    Shape {
+        /// The shape in the file.
+        found: Shape,
+        /// The image's.
+        expected: Shape,
+    },
+    /// Its extent, mip levels or layers aren't those that the image has.
+    #[error("holds {found}, and {expected} are needed")]
+    Parts {
+        /// What it holds, in words.
+        found: String,
+        /// The same words for the image.
+        expected: String,
     },
     /// It is larger than textures may be.
     #[error("is {}×{}; a texture has at most {side} texels along a side, and {texels} in all", extent[0], extent[1])]
@@ -114,12 +208,12 @@ pub trait Textures {
     /// [`TextureProblem`] says why it holds no texture.
     fn info(&mut self, file: &TextureFile) -> Result<TextureInfo, TextureProblem>;
 
-    /// The texels of an image of this format and extent, slice after slice, rows from the top, without padding, in the
-    /// machine's byte order. Red, green and blue are linear, but encoded in `_SRGB` formats.
+    /// The texels of an image: mip level after level, in each layer after layer, slice after slice, rows of texels or blocks from the
+    /// top, without padding, in the machine's byte order. Red, green and blue are linear, but encoded in `_SRGB` formats.
     ///
     /// # Errors
     /// Those of [`Textures::info`], and where the picture doesn't fit.
-    fn texels(&mut self, file: &TextureFile, format: Format, extent: [u32; 3]) -> Result<Vec<u8>, TextureProblem>;
+    fn texels(&mut self, file: &TextureFile, wanted: &WantedTexels) -> Result<Vec<u8>, TextureProblem>;
 }
 
 /// Provides nothing, where no frame has textures.
@@ -131,25 +225,57 @@ impl Textures for NoTextures {
         Err(TextureProblem::NotProvided)
     }
 
-    fn texels(&mut self, _: &TextureFile, _: Format, _: [u32; 3]) -> Result<Vec<u8>, TextureProblem> {
+    fn texels(&mut self, _: &TextureFile, _: &WantedTexels) -> Result<Vec<u8>, TextureProblem> {
         Err(TextureProblem::NotProvided)
     }
 }
 
 impl TextureInfo {
-    /// Width, height and depth of the image that the picture makes.
+    /// The properties of a picture.
+    #[must_use]
+    pub const fn picture([width, height]: [u32; 2], format: Format) -> TextureInfo {
+        let extent = [width, height, 1];
+        TextureInfo { extent, format, mips: 1, layers: 1, cube: false, stored: false, color_space: None }
+    }
+
+    /// The shape of an image that nobody chose another one for.
+    #[must_use]
+    pub const fn shape(&self) -> Shape {
+        match self.extent {
+            _ if self.cube => Shape::Cube,
+            [_, _, 0 | 1] => Shape::D2,
+            _ => Shape::D3,
+        }
+    }
+
+    /// Width, height and depth of the image that the texture makes.
     ///
     /// # Errors
-    /// [`TextureProblem::Size`] if it is no strip and a three-dimensional image is wanted.
+    /// [`TextureProblem::Size`] if a picture is no strip and a three-dimensional image is wanted, [`TextureProblem::Shape`] if
+    /// another shape is wanted than the file has.
     pub fn image_extent(&self, shape: Shape) -> Result<[u32; 3], TextureProblem> {
-        let [width, height] = self.extent;
-        if shape != Shape::D3 {
-            return Ok([width, height, 1]);
+        let [width, height, _] = self.extent;
+        let found = self.shape();
+        if shape == found {
+            return Ok(self.extent);
+        }
+        if self.stored || shape == Shape::Cube {
+            return Err(TextureProblem::Shape { found, expected: shape });
         }
         if u64::from(width) == u64::from(height) * u64::from(height) {
             return Ok([height; 3]);
         }
-        Err(TextureProblem::Size { found: self.extent, expected: picture_extent([height; 3]), strip: true })
+        let expected = picture_extent([height; 3]);
+        Err(TextureProblem::Size { found: [width, height], expected, strip: true })
+    }
+
+    /// Why its texels can't be held in `format`, if `file` is the file that it tells of.
+    #[must_use]
+    pub fn format_problem(&self, file: &TextureFile, format: Format) -> Option<&'static str> {
+        match format_problem(file, format) {
+            None if self.stored && !becomes(self.format, format) => Some("the file holds another format"),
+            problem => problem,
+        }
     }
 }
 
@@ -159,32 +285,66 @@ pub const fn picture_extent([width, height, depth]: [u32; 3]) -> [u32; 2] {
     [width.saturating_mul(depth), height]
 }
 
-/// Why texels of such a file can't be held in `format`.
+/// The words for a texture of a shape.
+fn shape_words(shape: Shape) -> String {
+    match shape {
+        Shape::Cube => "a cube".to_owned(),
+        Shape::D2 | Shape::D3 => format!("a texture of shape {}", name_of(&shape)),
+    }
+}
+
+/// Whether texels that a file stores in one format can be converted into another one: it is the same, or they are numbers that
+/// a picture could have, too.
 #[must_use]
-pub fn format_problem(file: &TextureFile, format: Format) -> Option<&'static str> {
+pub fn becomes(stored: Format, wanted: Format) -> bool {
+    let packed = stored == Format::A2R10G10B10_UNORM_PACK32 && wanted == Format::A2B10G10R10_UNORM_PACK32;
+    let is_alike = packed || stored.decoded() == Some(wanted) || not_in_pictures(wanted).is_none();
+    stored == wanted || is_alike && !stored.is_integer() && !stored.is_depth()
+}
+
+/// Why no picture's texels can be held in `format`.
+fn not_in_pictures(format: Format) -> Option<&'static str> {
+    let packed = matches!(
+        format,
+        Format::A2R10G10B10_UNORM_PACK32
+            | Format::A2B10G10R10_UNORM_PACK32
+            | Format::B10G11R11_UFLOAT_PACK32
+            | Format::E5B9G9R9_UFLOAT_PACK32
+    );
     if format.is_depth() {
         Some("a picture holds no depth")
     } else if format.is_integer() {
         Some("a picture holds no integers")
-    } else if matches!(format, Format::A2B10G10R10_UNORM_PACK32 | Format::B10G11R11_UFLOAT_PACK32)
-        || format.numeric() == Numeric::Snorm
-    {
+    } else if format.is_compressed() {
+        Some("only a texture file (KTX2, DDS) holds compressed texels")
+    } else if packed || format.numeric() == Numeric::Snorm {
         Some("no picture is stored in this format")
-    } else if format.numeric() == Numeric::Srgb && file.color_space == ColorSpace::Linear {
-        Some("its values are linear, and the format decodes sRGB")
     } else {
         None
     }
 }
 
+/// Why texels of such a file can't be held in `format`.
+#[must_use]
+pub fn format_problem(file: &TextureFile, format: Format) -> Option<&'static str> {
+    match not_in_pictures(format) {
+        Some(why) if !file.stored || format.is_depth() => Some(why),
+        _ if format.numeric() == Numeric::Srgb && file.color_space == ColorSpace::Linear => {
+            Some("its values are linear, and the format decodes sRGB")
+        }
+        _ => None,
+    }
+}
+
 impl Image {
-    /// An image of one mip level, which holds the picture of a file that is like `info`.
+    /// An image that holds the texture of a file that is like `info`: one mip level of a picture, all of a texture file.
     ///
     /// # Errors
-    /// [`TextureProblem::Size`] if a three-dimensional image is wanted of a picture that is no strip.
+    /// Those of [`TextureInfo::image_extent`].
     pub fn of_file(name: &str, file: TextureFile, info: &TextureInfo, shape: Shape) -> Result<Image, TextureProblem> {
-        let [width, height, depth] = info.image_extent(shape)?;
-        let flat = Image::new(name, info.format, width, height);
-        Ok(Image { shape, extent: [width, height, depth], lifetime: Lifetime::File(Arc::new(file)), ..flat })
+        let extent = info.image_extent(shape)?;
+        let flat = Image::new(name, info.format, extent[0], extent[1]);
+        let lifetime = Lifetime::File(Arc::new(TextureFile { stored: info.stored, ..file }));
+        Ok(Image { shape, extent, mips: info.mips, layers: info.layers, lifetime, ..flat })
     }
 }

@@ -137,8 +137,8 @@ impl Role {
 pub enum FirstContents {
     /// This value, in every texel or word.
     Value(FillValue),
-    /// An image: the picture of a file in its first mip level, and in each smaller one the mean of the level before. No step
-    /// writes it.
+    /// An image: the picture of a file in its first mip level, and in each smaller one the mean of the level before; or all that
+    /// a texture file stores. No step writes it.
     File(Arc<TextureFile>),
 }
 

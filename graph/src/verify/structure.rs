@@ -110,6 +110,9 @@ fn check_image(plan: &Plan, image: &Image, found: &mut Findings) {
     if image.usage.contains(Usage::TRANSIENT_ATTACHMENT) && (outlives || !attachment.contains(image.usage)) {
         wrong("is a TRANSIENT_ATTACHMENT and more than an attachment, or outlives the frame");
     }
+    if image.format.is_compressed() && !may_be_compressed(plan, image) {
+        wrong("is compressed, and more than sampled, or filled by the frame");
+    }
     if let Some(ChosenFormat { usual, .. }) = &image.chosen
         && (*usual == image.format || usual.aspects() != image.format.aspects())
     {
@@ -142,11 +145,25 @@ pub(super) fn is_of_file(image: &Image) -> bool {
     matches!(image.role, Role::Persistent { initial: FirstContents::File(_), .. })
 }
 
+/// Whether an image's contents are those of a texture file, which holds all of its levels and layers.
+fn is_stored(image: &Image) -> bool {
+    matches!(&image.role, Role::Persistent { initial: FirstContents::File(file), .. } if file.stored)
+}
+
+/// Whether an image in a compressed format is one that something outside of the frame fills, and that is only sampled.
+fn may_be_compressed(plan: &Plan, image: &Image) -> bool {
+    let read = Usage::SAMPLED | Usage::TRANSFER_SRC | Usage::TRANSFER_DST;
+    let is_output = plan.outputs.iter().any(|output| output.resource == Resource::Image(image.id));
+    let from_outside = matches!(image.role, Role::External { .. }) && !is_output || is_stored(image);
+    from_outside && read.contains(image.usage) && image.samples == 1
+}
+
 /// Whether an image has the form of one that a file fills, and is only read.
 fn may_be_of_file(image: &Image) -> bool {
     let read = Usage::SAMPLED | Usage::TRANSFER_SRC | Usage::TRANSFER_DST;
     let stays = matches!(image.role, Role::Persistent { becomes, .. } if becomes == image.id.0);
-    read.contains(image.usage) && image.samples == 1 && image.layers == 1 && image.shape != Shape::Cube && stays
+    let flat = image.layers == 1 && image.shape != Shape::Cube;
+    read.contains(image.usage) && image.samples == 1 && (flat || is_stored(image)) && stays
 }
 
 /// Whether an image of this format can be set to a value.

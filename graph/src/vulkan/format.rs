@@ -41,7 +41,7 @@ macro_rules! formats {
             #[must_use]
             pub const fn vulkan(self) -> i32 { match self { $(Format::$name => $vulkan,)* } }
 
-            /// Bytes that one texel (one sample) takes.
+            /// Bytes that one texel (one sample) takes; of a compressed format a [block](Format::block).
             #[must_use]
             pub const fn texel_bytes(self) -> u64 { match self { $(Format::$name => $bytes,)* } }
 
@@ -80,6 +80,7 @@ formats! {
     R8G8B8A8_SRGB = 43, 4 bytes, 4 x Srgb, COLOR;
     B8G8R8A8_UNORM = 44, 4 bytes, 4 x Unorm, COLOR;
     B8G8R8A8_SRGB = 50, 4 bytes, 4 x Srgb, COLOR;
+    A2R10G10B10_UNORM_PACK32 = 58, 4 bytes, 4 x Unorm, COLOR;
     A2B10G10R10_UNORM_PACK32 = 64, 4 bytes, 4 x Unorm, COLOR;
     R16_UNORM = 70, 2 bytes, 1 x Unorm, COLOR;
     R16_SNORM = 71, 2 bytes, 1 x Snorm, COLOR;
@@ -106,11 +107,66 @@ formats! {
     R32G32B32A32_SINT = 108, 16 bytes, 4 x Sint, COLOR;
     R32G32B32A32_SFLOAT = 109, 16 bytes, 4 x Sfloat, COLOR;
     B10G11R11_UFLOAT_PACK32 = 122, 4 bytes, 3 x Ufloat, COLOR;
+    E5B9G9R9_UFLOAT_PACK32 = 123, 4 bytes, 3 x Ufloat, COLOR;
     D16_UNORM = 124, 2 bytes, 1 x Unorm, DEPTH;
     X8_D24_UNORM_PACK32 = 125, 4 bytes, 1 x Unorm, DEPTH;
     D32_SFLOAT = 126, 4 bytes, 1 x Sfloat, DEPTH;
     D24_UNORM_S8_UINT = 129, 4 bytes, 1 x Unorm, DEPTH_STENCIL;
     D32_SFLOAT_S8_UINT = 130, 8 bytes, 1 x Sfloat, DEPTH_STENCIL;
+    BC1_RGB_UNORM_BLOCK = 131, 8 bytes, 3 x Unorm, COLOR;
+    BC1_RGB_SRGB_BLOCK = 132, 8 bytes, 3 x Srgb, COLOR;
+    BC1_RGBA_UNORM_BLOCK = 133, 8 bytes, 4 x Unorm, COLOR;
+    BC1_RGBA_SRGB_BLOCK = 134, 8 bytes, 4 x Srgb, COLOR;
+    BC2_UNORM_BLOCK = 135, 16 bytes, 4 x Unorm, COLOR;
+    BC2_SRGB_BLOCK = 136, 16 bytes, 4 x Srgb, COLOR;
+    BC3_UNORM_BLOCK = 137, 16 bytes, 4 x Unorm, COLOR;
+    BC3_SRGB_BLOCK = 138, 16 bytes, 4 x Srgb, COLOR;
+    BC4_UNORM_BLOCK = 139, 8 bytes, 1 x Unorm, COLOR;
+    BC4_SNORM_BLOCK = 140, 8 bytes, 1 x Snorm, COLOR;
+    BC5_UNORM_BLOCK = 141, 16 bytes, 2 x Unorm, COLOR;
+    BC5_SNORM_BLOCK = 142, 16 bytes, 2 x Snorm, COLOR;
+    BC6H_UFLOAT_BLOCK = 143, 16 bytes, 3 x Ufloat, COLOR;
+    BC6H_SFLOAT_BLOCK = 144, 16 bytes, 3 x Sfloat, COLOR;
+    BC7_UNORM_BLOCK = 145, 16 bytes, 4 x Unorm, COLOR;
+    BC7_SRGB_BLOCK = 146, 16 bytes, 4 x Srgb, COLOR;
+    ETC2_R8G8B8_UNORM_BLOCK = 147, 8 bytes, 3 x Unorm, COLOR;
+    ETC2_R8G8B8_SRGB_BLOCK = 148, 8 bytes, 3 x Srgb, COLOR;
+    ETC2_R8G8B8A1_UNORM_BLOCK = 149, 8 bytes, 4 x Unorm, COLOR;
+    ETC2_R8G8B8A1_SRGB_BLOCK = 150, 8 bytes, 4 x Srgb, COLOR;
+    ETC2_R8G8B8A8_UNORM_BLOCK = 151, 16 bytes, 4 x Unorm, COLOR;
+    ETC2_R8G8B8A8_SRGB_BLOCK = 152, 16 bytes, 4 x Srgb, COLOR;
+    EAC_R11_UNORM_BLOCK = 153, 8 bytes, 1 x Unorm, COLOR;
+    EAC_R11_SNORM_BLOCK = 154, 8 bytes, 1 x Snorm, COLOR;
+    EAC_R11G11_UNORM_BLOCK = 155, 16 bytes, 2 x Unorm, COLOR;
+    EAC_R11G11_SNORM_BLOCK = 156, 16 bytes, 2 x Snorm, COLOR;
+    ASTC_4x4_UNORM_BLOCK = 157, 16 bytes, 4 x Unorm, COLOR;
+    ASTC_4x4_SRGB_BLOCK = 158, 16 bytes, 4 x Srgb, COLOR;
+    ASTC_5x4_UNORM_BLOCK = 159, 16 bytes, 4 x Unorm, COLOR;
+    ASTC_5x4_SRGB_BLOCK = 160, 16 bytes, 4 x Srgb, COLOR;
+    ASTC_5x5_UNORM_BLOCK = 161, 16 bytes, 4 x Unorm, COLOR;
+    ASTC_5x5_SRGB_BLOCK = 162, 16 bytes, 4 x Srgb, COLOR;
+    ASTC_6x5_UNORM_BLOCK = 163, 16 bytes, 4 x Unorm, COLOR;
+    ASTC_6x5_SRGB_BLOCK = 164, 16 bytes, 4 x Srgb, COLOR;
+    ASTC_6x6_UNORM_BLOCK = 165, 16 bytes, 4 x Unorm, COLOR;
+    ASTC_6x6_SRGB_BLOCK = 166, 16 bytes, 4 x Srgb, COLOR;
+    ASTC_8x5_UNORM_BLOCK = 167, 16 bytes, 4 x Unorm, COLOR;
+    ASTC_8x5_SRGB_BLOCK = 168, 16 bytes, 4 x Srgb, COLOR;
+    ASTC_8x6_UNORM_BLOCK = 169, 16 bytes, 4 x Unorm, COLOR;
+    ASTC_8x6_SRGB_BLOCK = 170, 16 bytes, 4 x Srgb, COLOR;
+    ASTC_8x8_UNORM_BLOCK = 171, 16 bytes, 4 x Unorm, COLOR;
+    ASTC_8x8_SRGB_BLOCK = 172, 16 bytes, 4 x Srgb, COLOR;
+    ASTC_10x5_UNORM_BLOCK = 173, 16 bytes, 4 x Unorm, COLOR;
+    ASTC_10x5_SRGB_BLOCK = 174, 16 bytes, 4 x Srgb, COLOR;
+    ASTC_10x6_UNORM_BLOCK = 175, 16 bytes, 4 x Unorm, COLOR;
+    ASTC_10x6_SRGB_BLOCK = 176, 16 bytes, 4 x Srgb, COLOR;
+    ASTC_10x8_UNORM_BLOCK = 177, 16 bytes, 4 x Unorm, COLOR;
+    ASTC_10x8_SRGB_BLOCK = 178, 16 bytes, 4 x Srgb, COLOR;
+    ASTC_10x10_UNORM_BLOCK = 179, 16 bytes, 4 x Unorm, COLOR;
+    ASTC_10x10_SRGB_BLOCK = 180, 16 bytes, 4 x Srgb, COLOR;
+    ASTC_12x10_UNORM_BLOCK = 181, 16 bytes, 4 x Unorm, COLOR;
+    ASTC_12x10_SRGB_BLOCK = 182, 16 bytes, 4 x Srgb, COLOR;
+    ASTC_12x12_UNORM_BLOCK = 183, 16 bytes, 4 x Unorm, COLOR;
+    ASTC_12x12_SRGB_BLOCK = 184, 16 bytes, 4 x Srgb, COLOR;
 }
 
 impl Format {
@@ -126,14 +182,20 @@ impl Format {
         matches!(self.numeric(), Numeric::Uint | Numeric::Sint)
     }
 
-    /// Bits of each component; of packed formats those of the widest.
+    /// Bits of each component; of packed formats those of the widest, of compressed ones those of what they decode to.
     #[must_use]
     pub const fn component_bits(self) -> u32 {
         match self {
-            Format::A2B10G10R10_UNORM_PACK32 => 10,
+            Format::A2R10G10B10_UNORM_PACK32 | Format::A2B10G10R10_UNORM_PACK32 => 10,
             Format::B10G11R11_UFLOAT_PACK32 => 11,
+            // The exponent is shared.
+            Format::E5B9G9R9_UFLOAT_PACK32 => 14,
             Format::X8_D24_UNORM_PACK32 | Format::D24_UNORM_S8_UINT => 24,
             Format::D32_SFLOAT_S8_UINT => 32,
+            Format::BC6H_UFLOAT_BLOCK | Format::BC6H_SFLOAT_BLOCK => 16,
+            Format::EAC_R11_UNORM_BLOCK | Format::EAC_R11_SNORM_BLOCK => 11,
+            Format::EAC_R11G11_UNORM_BLOCK | Format::EAC_R11G11_SNORM_BLOCK => 11,
+            compressed if compressed.is_compressed() => 8,
             other => other.texel_bytes() as u32 * 8 / other.components(),
         }
     }
@@ -150,6 +212,8 @@ impl Format {
             // Vulkan, "16-Bit Floating-Point Numbers" and "Unsigned 11-Bit" and "10-Bit Floating-Point Numbers".
             Numeric::Sfloat if bits == 16 => [-65504.0, 65504.0],
             Numeric::Sfloat => [f32::MIN.into(), f32::MAX.into()],
+            Numeric::Ufloat if self == Format::E5B9G9R9_UFLOAT_PACK32 => [0.0, 65408.0],
+            Numeric::Ufloat if bits == 16 => [0.0, 65504.0],
             Numeric::Ufloat => [0.0, if component == 2 { 64512.0 } else { 65024.0 }],
         }
     }
@@ -179,17 +243,18 @@ impl Format {
         words.map(|word| if self.numeric() == Numeric::Sint { word.cast_signed().into() } else { word.into() })
     }
 
-    /// Bytes that one texel takes where each plane is stored by itself.
+    /// Bytes that texels of this width and height take where each plane is stored by itself.
     #[must_use]
-    pub const fn least_texel_bytes(self) -> u64 {
+    pub fn least_bytes(self, [width, height]: [u32; 2]) -> u64 {
+        let texels = u64::from(width) * u64::from(height);
         match self {
-            Format::D24_UNORM_S8_UINT => 4,
-            Format::D32_SFLOAT_S8_UINT => 5,
-            other => other.texel_bytes(),
+            Format::D24_UNORM_S8_UINT => 4 * texels,
+            Format::D32_SFLOAT_S8_UINT => 5 * texels,
+            other => other.bytes([width, height, 1]),
         }
     }
 
-    /// Bytes that a texel of one plane takes in a buffer (Vulkan, "Copying Data Between Buffers and Images"); `None`: these
+    /// Bytes that a texel, or block, of one plane takes in a buffer (Vulkan, "Copying Data Between Buffers and Images"); `None`: these
     /// are several planes.
     #[must_use]
     pub fn plane_bytes(self, plane: Aspects) -> Option<u64> {
@@ -204,7 +269,7 @@ impl Format {
     /// Whether a copy may take texels over into an image of another format, bit for bit.
     #[must_use]
     pub fn copies_to(self, other: Format) -> bool {
-        let color = !self.is_depth() && !other.is_depth();
+        let color = !self.is_depth() && !other.is_depth() && self.block() == other.block();
         self == other || color && self.texel_bytes() == other.texel_bytes()
     }
 
@@ -250,9 +315,9 @@ mod tests {
     #[test]
     fn formats_are_listed_by_vulkans_numbers_each_once() {
         assert!(Format::ALL.is_sorted_by_key(|format| format.vulkan()));
-        for format in Format::ALL.iter().filter(|format| !format.is_depth() && format.texel_bytes() > 0) {
+        for format in Format::ALL.iter().filter(|format| !format.is_depth() && !format.is_compressed()) {
             let letters = format.name().split('_').next().unwrap_or_default();
-            let count = letters.chars().filter(char::is_ascii_alphabetic).count();
+            let count = letters.chars().filter(|letter| "RGBA".contains(*letter)).count();
             assert_eq!(format.components() as usize, count, "{format}");
         }
     }

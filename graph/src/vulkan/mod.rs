@@ -1,6 +1,7 @@
 //! Vulkan's own words as plain data: formats, layouts, stages, accesses, usages, and properties that follow from them alone.
 
 pub(crate) mod access;
+mod compression;
 mod encoding;
 mod enums;
 mod fill_value;

@@ -108,8 +108,7 @@ fn what_cannot_be_is_refused_in_words() {
             frame.outputs[0].after = Some(before);
         }),
         ("`noise` comes from a file and has layers", |frame| {
-            noise(frame).lifetime =
-                Lifetime::File(Arc::new(TextureFile { path: "a.png".into(), color_space: ColorSpace::Linear }));
+            noise(frame).lifetime = Lifetime::File(Arc::new(TextureFile::picture("a.png", ColorSpace::Linear)));
             noise(frame).layers = 2;
         }),
         ("`on`: `noise` has 2 mip levels: a stand-in forwards between flat images", |frame| {

@@ -16,7 +16,7 @@ use framewright_graph::vulkan::{
 use std::sync::Arc;
 
 fn file(color_space: ColorSpace) -> Lifetime {
-    Lifetime::File(Arc::new(TextureFile { path: "textures/grain.png".into(), color_space }))
+    Lifetime::File(Arc::new(TextureFile::picture("textures/grain.png", color_space)))
 }
 
 /// A full-screen draw that samples `grain`, and the output that it draws.
@@ -179,7 +179,7 @@ fn a_device_without_the_format_gets_one_that_holds_as_much() {
 
 #[test]
 fn a_strip_of_squares_makes_a_three_dimensional_image_and_nothing_else_does() {
-    let info = |extent| TextureInfo { extent, format: Format::R8G8B8A8_UNORM };
+    let info = |extent| TextureInfo::picture(extent, Format::R8G8B8A8_UNORM);
     assert_eq!(info([256, 16]).image_extent(Shape::D3), Ok([16; 3]));
     assert_eq!(info([256, 16]).image_extent(Shape::D2), Ok([256, 16, 1]));
     let problem = info([255, 16]).image_extent(Shape::D3).expect_err("no strip");

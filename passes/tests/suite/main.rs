@@ -9,6 +9,7 @@ mod frustum;
 mod scene;
 mod shader_page;
 mod shipped;
+mod texture_containers;
 mod texture_files;
 mod twin_grading;
 mod twin_radiance;

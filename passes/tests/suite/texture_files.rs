@@ -1,7 +1,7 @@
 //! Pictures of files as textures: which format they get, which texels, and what is refused.
 
 use framewright_graph::base::Root;
-use framewright_graph::frame::{ColorSpace, TextureFile, TextureInfo, TextureProblem, Textures};
+use framewright_graph::frame::{ColorSpace, TextureFile, TextureInfo, TextureProblem, Textures, WantedTexels};
 use framewright_graph::vulkan::Format;
 use framewright_passes::texture_files::{MOST_SIDE, TextureFiles};
 use image::{DynamicImage, ImageBuffer, ImageFormat, Rgb, Rgba};
@@ -25,7 +25,7 @@ fn encoded(image: &DynamicImage, format: ImageFormat) -> Vec<u8> {
 }
 
 fn file(path: &str, color_space: ColorSpace) -> TextureFile {
-    TextureFile { path: path.into(), color_space }
+    TextureFile::picture(path, color_space)
 }
 
 fn bytes(width: u32, height: u32, texel: impl Fn(u32, u32) -> [u8; 4]) -> DynamicImage {
@@ -44,12 +44,15 @@ fn eight_bits_get_the_format_of_their_color_space_and_stay_as_they_are() {
     let (_folder, mut textures) = folder(&[("a.png", encoded(&picture, ImageFormat::Png))]);
     for (space, format) in [(Srgb, Format::R8G8B8A8_SRGB), (Linear, Format::R8G8B8A8_UNORM)] {
         let file = file("a.png", space);
-        assert_eq!(textures.info(&file), Ok(TextureInfo { extent: [2, 1], format }));
-        assert_eq!(textures.texels(&file, format, [2, 1, 1]), Ok(vec![10, 20, 30, 40, 11, 20, 30, 40]));
+        assert_eq!(textures.info(&file), Ok(TextureInfo::picture([2, 1], format)));
+        assert_eq!(
+            textures.texels(&file, &WantedTexels::picture(format, [2, 1, 1])),
+            Ok(vec![10, 20, 30, 40, 11, 20, 30, 40])
+        );
     }
-    let swapped = textures.texels(&file("a.png", Srgb), Format::B8G8R8A8_SRGB, [2, 1, 1]);
+    let swapped = textures.texels(&file("a.png", Srgb), &WantedTexels::picture(Format::B8G8R8A8_SRGB, [2, 1, 1]));
     assert_eq!(swapped.expect("texels")[..4], [30, 20, 10, 40]);
-    let one = textures.texels(&file("a.png", Linear), Format::R8_UNORM, [2, 1, 1]);
+    let one = textures.texels(&file("a.png", Linear), &WantedTexels::picture(Format::R8_UNORM, [2, 1, 1]));
     assert_eq!(one, Ok(vec![10, 11]));
 }
 
@@ -59,16 +62,18 @@ fn sixteen_bits_stay_sixteen_bits() {
     let (_folder, mut textures) = folder(&[("a.png", encoded(&words.into(), ImageFormat::Png))]);
     let file = file("a.png", Linear);
     let format = Format::R16G16B16A16_UNORM;
-    assert_eq!(textures.info(&file), Ok(TextureInfo { extent: [1, 1], format }));
+    assert_eq!(textures.info(&file), Ok(TextureInfo::picture([1, 1], format)));
     let expected: Vec<u8> = [1_u16, 513, 40_000, 65_535].iter().flat_map(|word| word.to_ne_bytes()).collect();
-    assert_eq!(textures.texels(&file, format, [1, 1, 1]), Ok(expected));
+    assert_eq!(textures.texels(&file, &WantedTexels::picture(format, [1, 1, 1])), Ok(expected));
 }
 
 #[test]
 fn encoded_values_become_linear_where_the_format_does_not_decode_them() {
     let picture = bytes(1, 1, |_, _| [188, 0, 255, 188]);
     let (_folder, mut textures) = folder(&[("a.png", encoded(&picture, ImageFormat::Png))]);
-    let texels = textures.texels(&file("a.png", Srgb), Format::R32G32B32A32_SFLOAT, [1, 1, 1]).expect("texels");
+    let texels = textures
+        .texels(&file("a.png", Srgb), &WantedTexels::picture(Format::R32G32B32A32_SFLOAT, [1, 1, 1]))
+        .expect("texels");
     let values: Vec<f32> = texels.as_chunks().0.iter().map(|bytes| f32::from_ne_bytes(*bytes)).collect();
     // IEC 61966-2-1; alpha is never encoded.
     for (value, expected) in values.iter().zip([0.502_886, 0.0, 1.0, 188.0 / 255.0]) {
@@ -83,12 +88,12 @@ fn exr_and_hdr_hold_light_beyond_one_and_are_never_srgb() {
         folder(&[("a.exr", encoded(&light, ImageFormat::OpenExr)), ("a.hdr", encoded(&light, ImageFormat::Hdr))]);
     let format = Format::R16G16B16A16_SFLOAT;
     let exr = file("a.exr", Linear);
-    assert_eq!(textures.info(&exr), Ok(TextureInfo { extent: [1, 1], format }));
-    let texels = textures.texels(&exr, format, [1, 1, 1]).expect("texels");
+    assert_eq!(textures.info(&exr), Ok(TextureInfo::picture([1, 1], format)));
+    let texels = textures.texels(&exr, &WantedTexels::picture(format, [1, 1, 1])).expect("texels");
     let halves: Vec<u16> = texels.as_chunks().0.iter().map(|bytes| u16::from_ne_bytes(*bytes)).collect();
     // Numbers too large for a half become the largest half, 65504.
     assert_eq!(halves, [0x3400, 0x4400, 0x7bff, 0x3c00]);
-    let wide = textures.texels(&exr, Format::R32G32B32A32_SFLOAT, [1, 1, 1]).expect("texels");
+    let wide = textures.texels(&exr, &WantedTexels::picture(Format::R32G32B32A32_SFLOAT, [1, 1, 1])).expect("texels");
     assert_eq!(wide[8..12], 1e9_f32.to_ne_bytes());
     assert_eq!(textures.info(&file("a.hdr", Linear)).map(|info| info.format), Ok(format));
     for name in ["a.exr", "a.hdr"] {
@@ -129,8 +134,9 @@ fn every_set_of_channels_that_is_a_picture_is_read() {
         let (_folder, mut textures) = folder(&[("a.exr", exr(channels))]);
         let file = file("a.exr", Linear);
         let format = Format::R16G16B16A16_SFLOAT;
-        assert_eq!(textures.info(&file), Ok(TextureInfo { extent: [2, 1], format }), "{channels:?}");
-        let texels = textures.texels(&file, Format::R32G32B32A32_SFLOAT, [2, 1, 1]).expect("texels");
+        assert_eq!(textures.info(&file), Ok(TextureInfo::picture([2, 1], format)), "{channels:?}");
+        let texels =
+            textures.texels(&file, &WantedTexels::picture(Format::R32G32B32A32_SFLOAT, [2, 1, 1])).expect("texels");
         let values: Vec<f32> = texels.as_chunks().0.iter().map(|bytes| f32::from_ne_bytes(*bytes)).collect();
         assert_eq!(values, expected.as_flattened(), "{channels:?}");
     }
@@ -166,7 +172,8 @@ fn of_several_layers_the_first_with_colours_is_read() {
         Image::from_layers(attributes, layers).write().non_parallel().to_buffered(&mut bytes).expect("it is written");
         let (_folder, mut textures) = folder(&[("a.exr", bytes.into_inner())]);
         let file = file("a.exr", Linear);
-        let texels = textures.texels(&file, Format::R32G32B32A32_SFLOAT, [2, 1, 1]).expect("texels");
+        let texels =
+            textures.texels(&file, &WantedTexels::picture(Format::R32G32B32A32_SFLOAT, [2, 1, 1])).expect("texels");
         f32::from_ne_bytes(texels[..4].try_into().expect("a number"))
     };
     let depth = || layer(&["Z"], 3.0);
@@ -195,7 +202,7 @@ fn a_radiance_file_may_begin_with_the_name_of_any_program() {
         let (_folder, mut textures) = folder(&[("a.hdr", bytes)]);
         let file = file("a.hdr", Linear);
         assert_eq!(textures.info(&file)?.extent, [9, 2]);
-        textures.texels(&file, Format::R32G32B32A32_SFLOAT, [9, 2, 1])
+        textures.texels(&file, &WantedTexels::picture(Format::R32G32B32A32_SFLOAT, [9, 2, 1]))
     };
     let expected = texels(usual.clone()).expect("texels");
     for name in ["#?RGBE", "#?AUTOPANO", "\u{feff}#?RADIANCE", "#?"] {
@@ -223,10 +230,10 @@ fn a_strip_becomes_slices() {
     let strip = bytes(4, 2, |x, y| [(x % 2) as u8, y as u8, (x / 2) as u8, 255]);
     let (_folder, mut textures) = folder(&[("lut.png", encoded(&strip, ImageFormat::Png))]);
     let file = file("lut.png", Linear);
-    let texels = textures.texels(&file, Format::R8G8B8A8_UNORM, [2, 2, 2]).expect("texels");
+    let texels = textures.texels(&file, &WantedTexels::picture(Format::R8G8B8A8_UNORM, [2, 2, 2])).expect("texels");
     let expected: Vec<u8> = (0..8_u8).flat_map(|texel| [texel & 1, texel >> 1 & 1, texel >> 2 & 1, 255]).collect();
     assert_eq!(texels, expected);
-    let wrong = textures.texels(&file, Format::R8G8B8A8_UNORM, [3, 3, 3]);
+    let wrong = textures.texels(&file, &WantedTexels::picture(Format::R8G8B8A8_UNORM, [3, 3, 3]));
     assert_eq!(wrong, Err(TextureProblem::Size { found: [4, 2], expected: [9, 3], strip: true }));
 }
 
@@ -273,7 +280,8 @@ fn damaged_pictures_are_refused_with_words() {
     let mut refused = 0;
     let mut try_it = |name: &str, bytes: Vec<u8>| {
         let (_folder, mut textures) = folder(&[(name, bytes)]);
-        let texels = textures.texels(&file(name, Linear), Format::R16G16B16A16_SFLOAT, [8, 8, 1]);
+        let texels =
+            textures.texels(&file(name, Linear), &WantedTexels::picture(Format::R16G16B16A16_SFLOAT, [8, 8, 1]));
         match texels {
             Ok(texels) => assert_eq!(texels.len(), 8 * 8 * 8),
             Err(problem) => {

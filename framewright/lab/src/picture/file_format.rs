@@ -84,7 +84,7 @@ impl FileFormat {
 pub fn steps(format: Format, encoding: Option<Encoding>) -> Option<u16> {
     match format {
         _ if FileFormat::OpenExr.holds(format) => None,
-        Format::A2B10G10R10_UNORM_PACK32 if encoding.is_some() => Some(1023),
+        Format::A2R10G10B10_UNORM_PACK32 | Format::A2B10G10R10_UNORM_PACK32 if encoding.is_some() => Some(1023),
         Format::R16_UNORM | Format::R16G16_UNORM | Format::R16G16B16A16_UNORM if encoding.is_some() => Some(u16::MAX),
         _ => Some(255),
     }

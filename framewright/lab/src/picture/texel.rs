@@ -22,6 +22,8 @@ pub(super) fn shown(format: Format, texel: &[u8]) -> [u8; 3] {
         F::B8G8R8A8_SRGB => [texel[2], texel[1], texel[0]],
         F::B8G8R8A8_UNORM => [texel[2], texel[1], texel[0]].map(unorm).map(encode),
         F::A2B10G10R10_UNORM_PACK32 => [0, 10, 20].map(|shift| encode(bits(word(0), shift, 10))),
+        F::A2R10G10B10_UNORM_PACK32 => [20, 10, 0].map(|shift| encode(bits(word(0), shift, 10))),
+        F::E5B9G9R9_UFLOAT_PACK32 => shared_exponent(word(0)).map(encode),
         F::R16_SFLOAT => [half(0), 0.0, 0.0].map(encode),
         F::R16G16_SFLOAT => [half(0), half(2), 0.0].map(encode),
         F::R16G16B16A16_SFLOAT => [half(0), half(2), half(4)].map(encode),
@@ -76,6 +78,13 @@ pub(super) fn cut(word: u32, shift: u32, count: u32) -> u16 {
     u16::try_from(value << (15 - count)).unwrap_or(u16::MAX)
 }
 
+/// Red, green and blue of three mantissas of 9 bits with one exponent.
+#[allow(clippy::cast_precision_loss, reason = "9 bits, which an f32 holds exactly")]
+pub(super) fn shared_exponent(word: u32) -> [f32; 3] {
+    let scale = 2_f32.powi((word >> 27).cast_signed() - 24);
+    [0, 9, 18].map(|shift| ((word >> shift) & 511) as f32 * scale)
+}
+
 /// The depth of one texel of a depth format.
 pub(super) fn depth(format: Format, texel: &[u8]) -> f32 {
     match *texel {
@@ -96,7 +105,14 @@ fn bits(word: u32, shift: u32, count: u32) -> f32 {
 /// Whether shares of colour are stored in more than 8 bits.
 pub(super) fn is_wide(format: Format) -> bool {
     use Format as F;
-    matches!(format, F::A2B10G10R10_UNORM_PACK32 | F::R16_UNORM | F::R16G16_UNORM | F::R16G16B16A16_UNORM)
+    matches!(
+        format,
+        F::A2R10G10B10_UNORM_PACK32
+            | F::A2B10G10R10_UNORM_PACK32
+            | F::R16_UNORM
+            | F::R16G16_UNORM
+            | F::R16G16B16A16_UNORM
+    )
 }
 
 /// Red, green and blue of one texel as they are stored, as shares of 65535; a grey is in the first. `None` of formats that
@@ -114,6 +130,7 @@ pub(super) fn stored(format: Format, texel: &[u8]) -> Option<[u16; 3]> {
         F::R8G8_UNORM => [byte(texel[0]), byte(texel[1]), 0],
         F::R8G8B8A8_UNORM | F::R8G8B8A8_SRGB => [texel[0], texel[1], texel[2]].map(byte),
         F::B8G8R8A8_UNORM | F::B8G8R8A8_SRGB => [texel[2], texel[1], texel[0]].map(byte),
+        F::A2R10G10B10_UNORM_PACK32 => [20, 10, 0].map(ten),
         F::A2B10G10R10_UNORM_PACK32 => [0, 10, 20].map(ten),
         F::R16_UNORM => [short(0), 0, 0],
         F::R16G16_UNORM => [short(0), short(2), 0],

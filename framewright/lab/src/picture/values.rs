@@ -24,6 +24,11 @@ pub fn values(format: Format, texel: &[u8]) -> [f32; 4] {
         F::B8G8R8A8_SRGB => [light(texel[2]), light(texel[1]), light(texel[0]), unorm(texel[3])],
         F::B8G8R8A8_UNORM => [2, 1, 0, 3].map(|at| unorm(texel[at])),
         F::A2B10G10R10_UNORM_PACK32 => [share(0, 10), share(10, 10), share(20, 10), share(30, 2)],
+        F::A2R10G10B10_UNORM_PACK32 => [share(20, 10), share(10, 10), share(0, 10), share(30, 2)],
+        F::E5B9G9R9_UFLOAT_PACK32 => {
+            let [red, green, blue] = texel::shared_exponent(word(0));
+            [red, green, blue, 1.0]
+        }
         F::R16_SFLOAT => [half(0), 0.0, 0.0, 1.0],
         F::R16G16_SFLOAT => [half(0), half(2), 0.0, 1.0],
         F::R16G16B16A16_SFLOAT => [0, 2, 4, 6].map(half),
@@ -82,6 +87,8 @@ mod tests {
         assert!(near(Format::R8G8B8A8_SRGB, &[188; 4]) && near(Format::B8G8R8A8_UNORM, &[128; 4]));
         assert!(near(Format::R16G16B16A16_UNORM, &[0xff, 0x7f].repeat(4)));
         assert!(near(Format::A2B10G10R10_UNORM_PACK32, &512_u32.to_ne_bytes()));
+        assert!(near(Format::A2R10G10B10_UNORM_PACK32, &(512_u32 << 20).to_ne_bytes()));
+        assert!(near(Format::E5B9G9R9_UFLOAT_PACK32, &(15_u32 << 27 | 256).to_ne_bytes()));
         assert_eq!(values(Format::R8_UINT, &[7]), [7.0, 0.0, 0.0, 1.0]);
         assert!(near(Format::R16_UNORM, &[0xff, 0x7f]) && near(Format::R16G16_SNORM, &[0xff, 0x3f, 0, 0]));
         assert_eq!(values(Format::R8G8_SNORM, &[0x80, 0x7f]), [-1.0, 1.0, 0.0, 1.0]);

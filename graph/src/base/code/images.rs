@@ -128,4 +128,18 @@ room! {
     ///
     /// Each place is for one of them: `image: "…"` or `buffer: "…"`. Mip levels, layers and planes are for images.
     IMAGE_OR_BUFFER = 623,
+
+    /// An image in a compressed format is used in another way than being sampled.
+    ///
+    /// Devices read compressed texels, and don't write them. Such an image is a texture of a KTX2 or DDS file, or imported. For
+    /// other images choose a format that isn't compressed.
+    /// Wrong: `(name: "light", format: BC7_SRGB_BLOCK, size: Output)`.
+    /// Mended: `(name: "light", format: R8G8B8A8_SRGB, size: Output)`.
+    FORMAT_COMPRESSED = 624,
+
+    /// A texture is compressed with Basis Universal.
+    ///
+    /// KTX2 files of ETC1S or UASTC have to be transcoded to a format that devices have, which isn't done yet. Store the texture in
+    /// such a format: BC7 for desktop devices, ASTC or ETC2 for mobile ones. A format that a device lacks is decoded.
+    TEXTURE_BASIS = 625,
 }

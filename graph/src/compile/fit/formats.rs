@@ -3,7 +3,7 @@
 //! A format that the pipeline chose by a policy is replaced by the format that it would have without the policy. Any other
 //! format is replaced only if nothing outside of the frame sees the image, and no shader or program is told the layout of
 //! its texels. So imported images, outputs and storage images keep their formats, and so do images that are copied to or
-//! from buffers or by custom passes. An output that is encoded for HDR10 may have 16 bits instead of 10.
+//! from buffers or by custom passes. A texture in a compressed format is decoded when it is loaded. An output that is encoded for HDR10 may have 16 bits instead of 10.
 
 use super::needs::{Needs, Supports};
 use crate::device::Profile;
@@ -22,8 +22,9 @@ fn substitutes(format: Format) -> &'static [Format] {
         B8G8R8A8_UNORM => &[R8G8B8A8_UNORM],
         R8G8B8A8_SRGB => &[B8G8R8A8_SRGB],
         B8G8R8A8_SRGB => &[R8G8B8A8_SRGB],
+        A2R10G10B10_UNORM_PACK32 => &[A2B10G10R10_UNORM_PACK32, R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT],
         A2B10G10R10_UNORM_PACK32 => &[R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT],
-        B10G11R11_UFLOAT_PACK32 => &[R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT],
+        B10G11R11_UFLOAT_PACK32 | E5B9G9R9_UFLOAT_PACK32 => &[R16G16B16A16_SFLOAT, R32G32B32A32_SFLOAT],
         R16_UNORM | R16_SNORM | R16_SFLOAT => &[R32_SFLOAT],
         R16G16_UNORM | R16G16_SNORM | R16G16_SFLOAT => &[R32G32_SFLOAT],
         R8_SNORM => &[R16_SFLOAT, R32_SFLOAT],
@@ -39,6 +40,8 @@ fn substitutes(format: Format) -> &'static [Format] {
         R32_UINT | R32_SINT | R32G32_UINT | R32G32_SINT | R32G32B32A32_UINT | R32G32B32A32_SINT => &[],
         R8_UNORM | R8G8_UNORM | R32_SFLOAT | R32G32_SFLOAT | R32G32B32A32_SFLOAT => &[],
         D32_SFLOAT | D32_SFLOAT_S8_UINT => &[],
+        // `decoded` names the one that holds them.
+        _compressed => &[],
     }
 }
 
@@ -94,7 +97,8 @@ pub(crate) fn formats<'d>(frame: &Frame, live: &[u32], device: &'d Profile) -> F
 }
 
 fn are_met(frame: &Frame, needs: &[Needs], supports: &Supports<'_>) -> bool {
-    frame.images.iter().zip(needs).all(|(image, needs)| needs.are_met(supports.of(image.format)))
+    let of = |image: &Image| supports.of_shape(image.format, image.shape);
+    frame.images.iter().zip(needs).all(|(image, needs)| needs.are_met(of(image)))
 }
 
 /// The frame with other formats, and a note for each; `None` if there is no substitute.
@@ -113,7 +117,8 @@ fn fall_back(frame: &Frame, live: &[u32], needs: &[Needs], supports: &Supports<'
     for group in groups.values() {
         // Images that are copied texel for texel share one format.
         let format = frame.images[group[0]].format;
-        let lacks = |format: Format, image: &usize| !needs[*image].are_met(supports.of(format));
+        let shape = |image: &usize| frame.images[*image].shape;
+        let lacks = |format: Format, image: &usize| !needs[*image].are_met(supports.of_shape(format, shape(image)));
         let Some(first) = group.iter().find(|image| lacks(format, image)) else { continue };
         let usual = group.iter().find_map(|image| frame.images[*image].chosen.as_ref()).map(|chosen| chosen.usual);
         if usual.is_none() && group.iter().any(|image| fixed[*image]) {
@@ -124,10 +129,10 @@ fn fall_back(frame: &Frame, live: &[u32], needs: &[Needs], supports: &Supports<'
         let substitutes = match usual {
             Some(usual) => up_to(format, usual),
             None if hdr10 => hdr10_substitutes(format).to_vec(),
-            None => substitutes(format).to_vec(),
+            None => format.decoded().into_iter().chain(substitutes(format).iter().copied()).collect(),
         };
         let other = substitutes.into_iter().find(fits)?;
-        let missing = needs[*first].missing(supports.of(format));
+        let missing = needs[*first].missing(supports.of_shape(format, shape(first)));
         group.iter().for_each(|image| made[*image] = Some((other, missing.clone())));
     }
     for (number, made) in made.into_iter().enumerate() {
@@ -172,8 +177,11 @@ fn alike_in(frame: &Frame, pass: &Pass) -> Option<[u32; 2]> {
 fn note(frame: &Frame, image: usize, made: Format, why: &str) -> Note {
     let declared = &frame.images[image];
     let gains = match declared.format {
+        A2R10G10B10_UNORM_PACK32 if made == A2B10G10R10_UNORM_PACK32 => "",
+        A2R10G10B10_UNORM_PACK32 => "; values outside of 0 to 1 are kept",
         A2B10G10R10_UNORM_PACK32 if made != R16G16B16A16_UNORM => "; values outside of 0 to 1 are kept",
-        B10G11R11_UFLOAT_PACK32 => "; it has an alpha, and negative values are kept",
+        _ if declared.format.is_compressed() => "; the file's texels are decoded",
+        B10G11R11_UFLOAT_PACK32 | E5B9G9R9_UFLOAT_PACK32 => "; it has an alpha, and negative values are kept",
         _ => "",
     };
     let text = format!("{} was asked for, {made} is made: {why}{gains}", declared.format);

@@ -2,7 +2,7 @@
 
 use crate::device::{FormatSupport, Profile};
 use crate::frame::{Access, Blend, Frame, ImageIndex, Lifetime, Pass, Resource, VisitAccess};
-use crate::vulkan::{Format, State, Usage};
+use crate::vulkan::{Format, Shape, State, Usage};
 
 /// Support of a device for each format, indexed by format.
 pub(crate) struct Supports<'d> {
@@ -15,11 +15,21 @@ impl<'d> Supports<'d> {
         let mut of = [None; Format::ALL.len()];
         // Backwards, so that the first of several entries counts.
         device.formats.iter().rev().for_each(|support| of[support.format as usize] = Some(support));
+        let lacks =
+            |support: &mut &FormatSupport| support.format.feature().is_some_and(|feature| !device.has_feature(feature));
+        of.iter_mut().for_each(|support| _ = support.take_if(lacks));
         Supports { device, of }
     }
 
     pub(super) fn of(&self, format: Format) -> Option<&'d FormatSupport> {
         self.of[format as usize]
+    }
+
+    /// The support for images of a format and shape. Three-dimensional ones in blocks are certain only of BC (Vulkan,
+    /// `VkPhysicalDeviceFeatures`).
+    pub(super) fn of_shape(&self, format: Format, shape: Shape) -> Option<&'d FormatSupport> {
+        let is_odd = shape == Shape::D3 && format.feature().is_some_and(|feature| feature != "textureCompressionBC");
+        self.of(format).filter(|_| !is_odd)
     }
 }
 

@@ -119,7 +119,7 @@ fn check_support(frame: &Frame, image: usize, used: Usage, supports: &Supports<'
         let help = format!("`{}` has images of up to {} layers", device.name, device.max_layers);
         errors.push(Diagnostic::new(Code::IMAGE_TOO_LARGE, declared.span, message).help(help));
     }
-    let supported = supports.of(declared.format).map_or(Usage::empty(), |support| support.usage);
+    let supported = supports.of_shape(declared.format, declared.shape).map_or(Usage::empty(), |support| support.usage);
     if !supported.contains(used) {
         let missing = used.difference(supported).iter_names().map(|(name, _)| name).collect::<Vec<_>>().join(", ");
         let message = format!("`{}` can't be {} on `{}`: no {missing}", declared.name, declared.format, device.name);
@@ -138,7 +138,9 @@ fn others(frame: &Frame, index: ImageIndex, supports: &Supports<'_>) -> String {
     let format = image.format;
     let needs = Needs::of(frame, frame.passes.iter())[index.0 as usize];
     let alike = |other: &&Format| other.aspects() == format.aspects() && other.is_integer() == format.is_integer();
-    let able = |other: &&Format| supports.of(**other).is_some() && needs.are_met(supports.of(**other));
+    let able = |other: &&Format| {
+        !other.is_compressed() && supports.of(**other).is_some() && needs.are_met(supports.of(**other))
+    };
     let names: Vec<String> = Format::ALL.iter().filter(alike).filter(able).map(|it| format!("`{it}`")).collect();
     match &names[..] {
         [] => format!("`{}` has no format of this kind for that", supports.device.name),

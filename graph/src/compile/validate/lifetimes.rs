@@ -49,8 +49,24 @@ fn file_problem(file: &TextureFile, of: Subject<'_>) -> Option<String> {
 /// Why an image can't come from a file for its shape.
 pub(super) fn shape_problem(image: &Image) -> Option<String> {
     let layered = image.layers > 1 || image.shape == Shape::Cube;
-    let of_file = matches!(image.lifetime, Lifetime::File(_));
-    (of_file && layered).then(|| "comes from a file and has layers".to_owned())
+    let of_picture = matches!(&image.lifetime, Lifetime::File(file) if !file.stored);
+    (of_picture && layered).then(|| "comes from a file and has layers".to_owned())
+}
+
+/// Why an image can't have its compressed format.
+pub(super) fn compression_problem(image: &Image) -> Option<String> {
+    let filled = matches!(image.lifetime, Lifetime::File(_) | Lifetime::Imported { .. });
+    let what = || format!("is {}, a compressed format, and no pass can fill it", image.format);
+    (image.format.is_compressed() && !filled).then(what)
+}
+
+/// Where a pass uses an image in a compressed format for anything but sampling it.
+pub(super) fn misused_compression(frame: &Frame, pass: &Pass) -> Option<(Span, String)> {
+    let others = pass.accesses().filter(|access| !matches!(access, Access::Sampled(_)));
+    let mut images = others.filter_map(|access| Some((&frame.images[access.image_index()?.0 as usize], access.span())));
+    let (image, span) = images.find(|(image, _)| image.format.is_compressed())?;
+    let Image { name, format, .. } = image;
+    Some((span, format!("does more with `{name}` than sample it: it is {format}, a compressed format")))
 }
 
 /// Where a pass uses an image that comes from a file for anything but sampling it.

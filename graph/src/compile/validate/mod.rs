@@ -12,6 +12,9 @@ use pass::{Check, wrong_clear};
 /// Most images, buffers and passes of a frame: their numbers have room to spare in 32 bits.
 const MOST: usize = 1 << 24;
 
+/// The help where an image in a compressed format is no texture.
+const UNCOMPRESSED: &str = "compressed images are textures of files, or imported: choose another format";
+
 /// Reports work that no device could do, and parts that do not fit together.
 pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
     let mut errors = Vec::new();
@@ -19,10 +22,11 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
         let message = format!("a frame has at most {MOST} images, buffers and passes each");
         return Err(vec![Diagnostic::new(Code::FRAME_TOO_LARGE, Span::NONE, message)]);
     }
-    let (mut has_eyes, mut has_files) = (false, false);
+    let (mut has_eyes, mut has_files, mut has_compressed) = (false, false, false);
     for image in &frame.images {
         has_eyes |= image.eyes.is_some();
         has_files |= matches!(image.lifetime, Lifetime::File(_));
+        has_compressed |= image.format.is_compressed();
         let before = errors.len();
         check::images::check(image, image, &mut errors);
         if errors.len() > before {
@@ -32,6 +36,9 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
             errors.push(Diagnostic::new(code, image.span, format!("`{}` {what}", image.name)));
         } else if let Some(wrong) = lifetimes::check(&image.lifetime, image.span, || of_image(image)) {
             errors.push(wrong);
+        } else if let Some(what) = lifetimes::compression_problem(image) {
+            let wrong = Diagnostic::new(Code::FORMAT_COMPRESSED, image.span, format!("`{}` {what}", image.name));
+            errors.push(wrong.help(UNCOMPRESSED));
         }
     }
     for buffer in &frame.buffers {
@@ -50,6 +57,9 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
             check.storage();
             if has_files {
                 check.files();
+            }
+            if has_compressed {
+                check.compressed();
             }
             if has_eyes {
                 eyes::pass(frame, pass, &mut errors);
@@ -136,6 +146,9 @@ fn outputs(frame: &Frame, errors: &mut Vec<Diagnostic>) {
         {
             let message = format!("`{}` is an output and comes from a file: no pass makes it", subject.name);
             errors.push(Diagnostic::new(Code::TEXTURE_WRITTEN, output.span, message));
+        } else if let Some(format) = subject.format.filter(|format| format.is_compressed()) {
+            let message = format!("`{}` is an output and is {format}, a compressed format", subject.name);
+            errors.push(Diagnostic::new(Code::FORMAT_COMPRESSED, output.span, message).help(UNCOMPRESSED));
         }
         if let Resource::Image(image) = output.resource
             && let image = &frame.images[image.0 as usize]

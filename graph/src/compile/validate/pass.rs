@@ -53,6 +53,16 @@ impl Check<'_> {
         }
     }
 
+    /// Images in compressed formats are only sampled.
+    pub(super) fn compressed(&mut self) {
+        if let Some((span, what)) = lifetimes::misused_compression(self.frame, self.pass) {
+            self.wrong(Code::FORMAT_COMPRESSED, span, &what);
+            if let Some(error) = self.errors.last_mut() {
+                error.help = Some(super::UNCOMPRESSED.to_owned());
+            }
+        }
+    }
+
     // Inlined: `VisitAccess::visit` says why.
     #[inline(always)]
     fn image(&mut self, index: ImageIndex, access: &Access<'_>) {

@@ -49,10 +49,14 @@ fn look(
             |problem: &dyn std::fmt::Display| Diagnostic::new(Code::TEXTURE_FILE, span, format!("`{path}` {problem}"));
         let picture = match from.unwrap_or(&"".into()).beside(&path) {
             Ok(FilePath::Own(own)) => {
-                let file = TextureFile { path: own, color_space };
-                info(&file).map(|info| Picture { file: Arc::new(file), info }).map_err(|problem| {
+                let mut file = TextureFile { path: own, color_space, stored: false };
+                let known = in_own_space(&mut file, fields.color_space.is_some(), &mut info);
+                let stored = known.as_ref().is_ok_and(|info| info.stored);
+                let file = Arc::new(TextureFile { stored, ..file });
+                known.map(|info| Picture { file, info }).map_err(|problem| {
                     let wrong = Diagnostic { of_machine: problem.is_of_machine(), ..wrong(&problem) };
                     match problem {
+                        TextureProblem::Basis { .. } => Diagnostic { code: Code::TEXTURE_BASIS, ..wrong },
                         TextureProblem::Outside => {
                             let outside = Diagnostic { code: Code::FILE_OUTSIDE_ROOT, ..wrong };
                             outside.help(WITHIN_ROOT).choice(OutsideChoice::Root)
@@ -66,5 +70,22 @@ fn look(
         };
         let picture = picture.map_err(|wrong| reader.report(wrong)).ok();
         pictures.insert(span, picture);
+    }
+}
+
+/// What is known of a file in the colour space that it names itself; where the pipeline says another one (`is_said`), it is wrong.
+fn in_own_space(
+    file: &mut TextureFile,
+    is_said: bool,
+    info: &mut impl FnMut(&TextureFile) -> Result<TextureInfo, TextureProblem>,
+) -> Result<TextureInfo, TextureProblem> {
+    let known = info(file)?;
+    match known.color_space {
+        Some(named) if named != file.color_space && is_said => Err(TextureProblem::ColorSpace { named }),
+        Some(named) if named != file.color_space => {
+            file.color_space = named;
+            info(file)
+        }
+        _ => Ok(known),
     }
 }

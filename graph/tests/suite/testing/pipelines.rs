@@ -51,7 +51,7 @@ impl Pictures {
                 return Err(TextureProblem::Unreadable { reason: "No such file or directory (os error 2)".to_owned() });
             }
         };
-        Ok(TextureInfo { extent, format })
+        Ok(TextureInfo::picture(extent, format))
     }
 }
 

@@ -1,11 +1,17 @@
-//! Textures from picture files: PNG, JPEG, Radiance HDR, OpenEXR.
+//! Textures from files: pictures (PNG, JPEG, Radiance HDR, OpenEXR) and texture files (KTX2, DDS).
 
+mod container;
+mod dds;
+mod decode;
+mod ktx2;
+
+use self::container::{Container, HEAD};
 use crate::decoder_words;
 use crate::open_exr::OpenExr;
 use crate::srgb;
 use framewright_graph::base::{NoFile, Root, is_of_machine};
 use framewright_graph::frame::{
-    ColorSpace, TextureFile, TextureInfo, TextureProblem, Textures, format_problem, picture_extent,
+    ColorSpace, TextureFile, TextureInfo, TextureProblem, Textures, WantedTexels, format_problem, picture_extent,
 };
 use framewright_graph::vulkan::{Format, Numeric};
 use half::f16;
@@ -28,7 +34,8 @@ const MOST_DECODED: u64 = MOST_TEXELS * 16 + (64 << 20);
 ///
 /// The bytes of a file decide its format, not its name. PNG of 8 bits and JPEG become `R8G8B8A8_SRGB` or `R8G8B8A8_UNORM`, PNG
 /// of 16 bits `R16G16B16A16_UNORM`, HDR and EXR `R16G16B16A16_SFLOAT`; a frame may say `R32G32B32A32_SFLOAT` or any other
-/// format of colour, of which the picture fills as many components as there are.
+/// format of colour, of which the picture fills as many components as there are. KTX2 and DDS keep the format, levels and layers that
+/// they have; where a device lacks the format, their texels are decoded.
 #[derive(Debug, Clone)]
 pub struct TextureFiles {
     root: Root,
@@ -81,6 +88,15 @@ impl TextureFiles {
         Ok(found)
     }
 
+    /// Opens a texture file; `None`: it is a picture, or nothing.
+    fn container(&self, file: &TextureFile) -> Result<Option<Container>, TextureProblem> {
+        let opened = self.root.open(&self.locate(&file.path)?).map_err(unreadable)?;
+        let bytes = opened.metadata().map_err(unreadable)?.len();
+        let mut head = Vec::new();
+        opened.take(HEAD).read_to_end(&mut head).map_err(unreadable)?;
+        Container::open(&head, bytes, file)
+    }
+
     /// Opens a picture whose size is within the limits.
     fn open(&self, path: &str) -> Result<OpenedPicture, TextureProblem> {
         let file = self.root.open(&self.locate(path)?).map_err(unreadable)?;
@@ -118,7 +134,7 @@ fn most_memory() -> Limits {
 /// The decoder of a Radiance file that doesn't begin with `#?RADIANCE`: other programs write their own name there, such as `#?RGBE`.
 fn radiance(mut file: BufReader<File>) -> Result<Box<dyn ImageDecoder>, TextureProblem> {
     const LONGEST: u64 = 80;
-    let none = || damaged("neither PNG nor JPEG, HDR or EXR");
+    let none = || damaged("neither PNG nor JPEG, HDR, EXR, KTX2 or DDS");
     file.rewind().map_err(unreadable)?;
     let mut first = Vec::new();
     file.by_ref().take(LONGEST).read_until(b'\n', &mut first).map_err(unreadable)?;
@@ -172,6 +188,9 @@ impl OpenedPicture {
 
 impl Textures for TextureFiles {
     fn info(&mut self, file: &TextureFile) -> Result<TextureInfo, TextureProblem> {
+        if let Some(container) = self.container(file)? {
+            return Ok(container.info());
+        }
         let opened = self.open(&file.path)?;
         let format = match (&opened, file.color_space) {
             _ if opened.is_light() => Format::R16G16B16A16_SFLOAT,
@@ -180,10 +199,18 @@ impl Textures for TextureFiles {
             (_, ColorSpace::Linear) => Format::R8G8B8A8_UNORM,
         };
         check_space(opened.is_light(), file, format)?;
-        Ok(TextureInfo { extent: opened.extent(), format })
+        Ok(TextureInfo::picture(opened.extent(), format))
     }
 
-    fn texels(&mut self, file: &TextureFile, format: Format, extent: [u32; 3]) -> Result<Vec<u8>, TextureProblem> {
+    fn texels(&mut self, file: &TextureFile, wanted: &WantedTexels) -> Result<Vec<u8>, TextureProblem> {
+        if let Some(container) = self.container(file)? {
+            return container.wanted(&self.bytes(&file.path)?, file, wanted);
+        }
+        let WantedTexels { format, extent, mips, layers } = *wanted;
+        if mips > 1 || layers > 1 {
+            let found = container::parts(extent, 1, 1);
+            return Err(TextureProblem::Parts { found, expected: container::parts(extent, mips, layers) });
+        }
         let opened = self.open(&file.path)?;
         check_space(opened.is_light(), file, format)?;
         let (found, expected) = (opened.extent(), picture_extent(extent));
@@ -254,6 +281,14 @@ fn pack(color: [f32; 4], format: Format, bytes: &mut Vec<u8>) -> Result<(), Text
         F::R8_UNORM | F::R8G8_UNORM | F::R8G8B8A8_UNORM | F::R8G8B8A8_SRGB => {
             bytes.extend(color.iter().take(components).map(|value| fixed(*value, 255.0).to_ne_bytes()[LOW]));
         }
+        F::R8_SNORM | F::R8G8_SNORM => {
+            bytes.extend(color.iter().take(components).map(|value| signed(*value)));
+        }
+        F::A2B10G10R10_UNORM_PACK32 => {
+            let [red, green, blue] = [color[0], color[1], color[2]].map(|value| u32::from(fixed(value, 1023.0)));
+            let word = u32::from(fixed(color[3], 3.0)) << 30 | blue << 20 | green << 10 | red;
+            bytes.extend(word.to_ne_bytes());
+        }
         F::B8G8R8A8_UNORM | F::B8G8R8A8_SRGB => {
             bytes.extend([2, 1, 0, 3].map(|at| fixed(color[at], 255.0).to_ne_bytes()[LOW]));
         }
@@ -276,6 +311,12 @@ fn pack(color: [f32; 4], format: Format, bytes: &mut Vec<u8>) -> Result<(), Text
 
 /// The place of the low byte of a 16-bit value in memory.
 const LOW: usize = if cfg!(target_endian = "little") { 0 } else { 1 };
+
+/// A value −1…1 in steps of 1 / 127, to the nearest.
+#[allow(clippy::cast_possible_truncation, reason = "-127 to 127")]
+fn signed(value: f32) -> u8 {
+    ((value.clamp(-1.0, 1.0) * 127.0).round() as i8).cast_unsigned()
+}
 
 /// A value 0…1 in steps of 1 / `most`, to the nearest.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 65535")]
