@@ -2,7 +2,7 @@
 
 use super::transfers::FilePass;
 use super::{targets, transfers, work};
-use crate::base::Diagnostic;
+use crate::base::{Diagnostic, Span};
 use crate::expand::resources::{Resources, fills, parts};
 use crate::expand::shader::{
     self, CheckedShaders, coverage, local, params, rotation, sampled_images, samplers, stereo, storage,
@@ -77,6 +77,8 @@ pub(in crate::expand) fn draft(
         storage: Vec::new(),
         color: Vec::with_capacity(pass.color.len()),
         depth: None,
+        raster: pass.raster.map(|raster| raster.value).unwrap_or_default(),
+        raster_span: pass.raster.map_or(Span::NONE, |raster| raster.span),
         alpha_to_coverage: pass.alpha_to_coverage.is_some(),
         covers: pass.covers,
         untouched: coverage::untouched(pass, interface),
@@ -103,6 +105,7 @@ pub(in crate::expand) fn draft(
             span: target.part.image.span,
             clear: target.clear.map(|clear| clear.map(|number| number.value)),
             blend: target.blend.value,
+            write_mask: target.write_mask,
         });
     }
     lowered.depth = pass.depth.as_ref().map(|target| DepthTarget {
