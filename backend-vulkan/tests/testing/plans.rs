@@ -217,6 +217,8 @@ fn pass(name: &str, shader: &str, draw: Draw, target: ImageId) -> Pass {
         untouched: None,
         covers: false,
         blend: vec![Blend::Replace],
+        write_masks: Vec::new(),
+        raster: RasterState::default(),
         depth: None,
         stencil: None,
         params: Vec::new(),

@@ -125,6 +125,13 @@ impl RasterState {
         *self == RasterState::default()
     }
 
+    /// The state without what is set while commands are recorded: two such states need one pipeline.
+    #[must_use]
+    pub fn of_pipeline(self) -> RasterState {
+        let RasterState { cull_mode, front_face, .. } = RasterState::default();
+        RasterState { cull_mode, front_face, ..self }
+    }
+
     /// Whether it may leave out triangles by their faces.
     #[must_use]
     pub fn culls(&self) -> bool {
@@ -143,15 +150,16 @@ impl RasterState {
         [
             (bounded, "depthBiasClamp", "a bound of the depth bias"),
             (self.depth_clamp, "depthClamp", "depth that is clamped"),
-            (self.line_width != Real::ONE, "wideLines", "lines that aren't one texel wide"),
+            (self.line_width != Real::ONE, "wideLines", "a line width other than 1"),
+            (self.topology == PrimitiveTopology::PointList, "largePoints", "points of a size"),
         ]
         .into_iter()
         .filter_map(|(needed, feature, what)| needed.then_some((feature, what)))
     }
 
-    /// The limits that it needs, each with its value, and what that is.
+    /// The limits that it needs, each with its value, and what has that value.
     pub fn limits(&self) -> impl Iterator<Item = (Limit, f32, &'static str)> + use<> {
-        [(Limit::LineWidth, f32::from(self.line_width), "lines are so wide")].into_iter()
+        [(Limit::LineWidth, f32::from(self.line_width), "the line width")].into_iter()
     }
 }
 

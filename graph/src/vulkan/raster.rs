@@ -108,6 +108,17 @@ words! {
     }
 }
 
+impl FrontFace {
+    /// The other one.
+    #[must_use]
+    pub const fn turned_over(self) -> FrontFace {
+        match self {
+            FrontFace::CounterClockwise => FrontFace::Clockwise,
+            FrontFace::Clockwise => FrontFace::CounterClockwise,
+        }
+    }
+}
+
 impl PrimitiveTopology {
     /// Whether its primitives have faces.
     #[must_use]

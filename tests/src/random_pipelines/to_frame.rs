@@ -260,6 +260,7 @@ fn add_attachments(pipeline: &Pipeline, made: &mut frame::Pass, draw: &Draw) {
             span: Span::NONE,
             clear: clear.map(|value| [texels::float(format, texels::plain(format, value)).into(); 4]),
             blend: *blend,
+            write_mask: ColorComponents::RGBA,
         });
     }
     made.depth = draw.depth.map(|pipeline::DepthTarget { part, clear, test, write, stencil }| {

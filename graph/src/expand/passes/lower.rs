@@ -1,7 +1,7 @@
 //! Passes of the frame: the work of each, the parts that it uses, and the inputs of its shader.
 
 use super::transfers::FilePass;
-use super::{targets, transfers, work};
+use super::{raster, targets, transfers, work};
 use crate::base::{Diagnostic, Span};
 use crate::expand::resources::{Resources, fills, parts};
 use crate::expand::shader::{
@@ -29,6 +29,7 @@ pub(in crate::expand) fn lower(
         lowered.work.set_shader(found);
     }
     work::check(resources, pass, &lowered, interface.as_ref(), errors);
+    raster::check(pass, interface.as_ref(), errors);
     transfers::draw_part(&FilePass { resources, pass }, &mut lowered, errors);
     supplied_resources::custom(shaders, pass, errors);
     if let (Some(path), Some(interface)) = (&path, &interface) {
