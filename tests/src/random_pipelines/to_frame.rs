@@ -8,7 +8,7 @@ use super::{shader, texels, valid};
 use crate::parts;
 use framewright_graph::base::Span;
 use framewright_graph::frame::{self, BufferIndex, BufferRole, BufferUse, Face, Frame, ImageIndex, Lifetime, Resource};
-use framewright_graph::vulkan::{Accesses, FillValue, Filter, Format, Layout, Stages, State, Subresources};
+use framewright_graph::vulkan::{Accesses, ColorComponents, FillValue, Filter, Format, Layout, Stages, State, Subresources};
 
 /// The frame that `pipeline` says.
 #[must_use]
