@@ -66,18 +66,28 @@ macro_rules! words {
     };
 }
 
-words! {
-    /// The faces of triangles that are left out (`VkCullModeFlagBits`).
-    CullMode {
-        /// None.
-        None,
-        /// Front faces.
-        Front,
-        /// Back faces.
-        Back,
-        /// Both: no triangle is drawn.
-        FrontAndBack,
-    }
+/// The faces of triangles that are left out (`VkCullModeFlagBits`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "SCREAMING_SNAKE_CASE")]
+pub enum CullMode {
+    /// None.
+    None,
+    /// Front faces.
+    Front,
+    /// Back faces.
+    Back,
+    /// Both: no triangle is drawn.
+    FrontAndBack,
+}
+
+impl CullMode {
+    /// All of them, by the word that files have for each. `None` leaves a field out there.
+    pub(crate) const NAMED: &'static [(&'static str, CullMode)] = &[
+        ("Neither", CullMode::None),
+        ("Front", CullMode::Front),
+        ("Back", CullMode::Back),
+        ("FrontAndBack", CullMode::FrontAndBack),
+    ];
 }
 
 words! {

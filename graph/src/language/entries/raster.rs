@@ -15,7 +15,8 @@ fields! {
     /// (cull_mode: Front, depth_bias: (constant: -1.0, slope: -2.0))
     /// ```
     struct RasterFields<'src> {
-        /// The faces that are left out. If left out: of objects those that their material leaves out, of other draws none.
+        /// The faces that are left out; `Neither` is Vulkan's `NONE`. If nothing is said: of objects those that their material leaves
+        /// out, of other draws none.
         cull_mode: Option<Leaf<'src>> => Form::Either(&[
             Form::Choice("a cull mode", || names(CullMode::NAMED)), Form::Expression("a cull mode"),
         ]),

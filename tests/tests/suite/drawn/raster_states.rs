@@ -154,7 +154,7 @@ fn faces_are_left_out_as_the_pass_says_however_the_picture_is_turned_and_in_both
     let mut cases = Vec::new();
     for (front, back_shows) in [("CounterClockwise", true), ("Clockwise", false)] {
         for (mode, drawn) in
-            [("None", true), ("Front", back_shows), ("Back", !back_shows), ("FrontAndBack", false)]
+            [("Neither", true), ("Front", back_shows), ("Back", !back_shows), ("FrontAndBack", false)]
         {
             cases.push((full_screen("", &format!(", raster: (cull_mode: {mode}, front_face: {front})")), drawn));
         }
@@ -424,7 +424,7 @@ fn a_pass_may_leave_out_other_faces_of_objects() -> Result<(), Box<dyn Error>> {
     };
     let usual = shown("")?;
     let [front, turned, none] =
-        ["cull_mode: Front", "front_face: Clockwise", "cull_mode: None"].map(|it| shown(&format!(", raster: ({it})")));
+        ["cull_mode: Front", "front_face: Clockwise", "cull_mode: Neither"].map(|it| shown(&format!(", raster: ({it})")));
     let (front, turned, none) = (front?, turned?, none?);
     assert!(front == turned, "front faces are left out in both");
     assert!(none == usual, "closed objects hide their back faces");
