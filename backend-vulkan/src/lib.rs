@@ -59,6 +59,8 @@ pub use gpu::{
     MessageKind, Messages, PipelineCounts, SamplerDescriptor, ScopeFormats, Severity, layer, minimum_features,
     optional_features, rotation_of_surface,
 };
+/// The faces that draws leave out, and which side is the front.
+pub use framewright_graph::vulkan::{CullMode, FrontFace};
 /// The allocator of device memory, for programs whose own one serves an [adopted](AdoptedDevice) device.
 pub use gpu_allocator;
 pub use helper::Helper;
@@ -68,7 +70,7 @@ pub use probe::Canary;
 /// The handles of windows and displays, for programs that show pictures.
 pub use raw_window_handle;
 pub use record::{
-    CullMode, CustomImage, CustomRecorder, DispatchRecorder, DrawSource, FrameReport, FrontFace, IndexType, PassReport,
+    CustomImage, CustomRecorder, DispatchRecorder, DrawSource, FrameReport, IndexType, PassReport,
     Recorder, StepReport,
 };
 pub use resources::{BindGroup, Buffer, BufferUsage, DynamicBuffer, Resource, Texture};

@@ -2,8 +2,8 @@
 
 use ash::vk;
 use framewright_graph::vulkan::{
-    Accesses, Aspects, BufferUsage, CompareOp, FillValue, Filter, Format, Layout, LoadOp, Numeric, ResolveMode, Stages,
-    StencilOp, StoreOp, Subresources, Usage,
+    Accesses, Aspects, BlendFactor, BlendOp, BufferUsage, ColorComponents, CompareOp, CullMode, FillValue, Filter, Format,
+    FrontFace, Layout, LoadOp, Numeric, PrimitiveTopology, ResolveMode, Stages, StencilOp, StoreOp, Subresources, Usage,
 };
 
 pub(crate) fn format(format: Format) -> vk::Format {
@@ -185,5 +185,70 @@ pub(crate) fn clear(format: Option<Format>, value: FillValue) -> Clear {
         (Some(_), FillValue::Bits(uint32)) => Clear::Color(vk::ClearColorValue { uint32 }),
         (Some(format), FillValue::Color(color)) => Clear::Color(clear_color(format, color.map(f64::from))),
         (Some(format), FillValue::Depth(value, _)) => Clear::Color(clear_color(format, [value.into(); 4])),
+    }
+}
+
+pub(crate) fn color_components(components: ColorComponents) -> vk::ColorComponentFlags {
+    vk::ColorComponentFlags::from_raw(components.bits().into())
+}
+
+pub(crate) fn cull_mode(mode: CullMode) -> vk::CullModeFlags {
+    match mode {
+        CullMode::None => vk::CullModeFlags::NONE,
+        CullMode::Front => vk::CullModeFlags::FRONT,
+        CullMode::Back => vk::CullModeFlags::BACK,
+        CullMode::FrontAndBack => vk::CullModeFlags::FRONT_AND_BACK,
+    }
+}
+
+pub(crate) fn front_face(face: FrontFace) -> vk::FrontFace {
+    match face {
+        FrontFace::CounterClockwise => vk::FrontFace::COUNTER_CLOCKWISE,
+        FrontFace::Clockwise => vk::FrontFace::CLOCKWISE,
+    }
+}
+
+pub(crate) fn topology(topology: PrimitiveTopology) -> vk::PrimitiveTopology {
+    match topology {
+        PrimitiveTopology::PointList => vk::PrimitiveTopology::POINT_LIST,
+        PrimitiveTopology::LineList => vk::PrimitiveTopology::LINE_LIST,
+        PrimitiveTopology::LineStrip => vk::PrimitiveTopology::LINE_STRIP,
+        PrimitiveTopology::TriangleList => vk::PrimitiveTopology::TRIANGLE_LIST,
+        PrimitiveTopology::TriangleStrip => vk::PrimitiveTopology::TRIANGLE_STRIP,
+        PrimitiveTopology::TriangleFan => vk::PrimitiveTopology::TRIANGLE_FAN,
+    }
+}
+
+pub(crate) fn blend_factor(factor: BlendFactor) -> vk::BlendFactor {
+    match factor {
+        BlendFactor::Zero => vk::BlendFactor::ZERO,
+        BlendFactor::One => vk::BlendFactor::ONE,
+        BlendFactor::SrcColor => vk::BlendFactor::SRC_COLOR,
+        BlendFactor::OneMinusSrcColor => vk::BlendFactor::ONE_MINUS_SRC_COLOR,
+        BlendFactor::DstColor => vk::BlendFactor::DST_COLOR,
+        BlendFactor::OneMinusDstColor => vk::BlendFactor::ONE_MINUS_DST_COLOR,
+        BlendFactor::SrcAlpha => vk::BlendFactor::SRC_ALPHA,
+        BlendFactor::OneMinusSrcAlpha => vk::BlendFactor::ONE_MINUS_SRC_ALPHA,
+        BlendFactor::DstAlpha => vk::BlendFactor::DST_ALPHA,
+        BlendFactor::OneMinusDstAlpha => vk::BlendFactor::ONE_MINUS_DST_ALPHA,
+        BlendFactor::ConstantColor => vk::BlendFactor::CONSTANT_COLOR,
+        BlendFactor::OneMinusConstantColor => vk::BlendFactor::ONE_MINUS_CONSTANT_COLOR,
+        BlendFactor::ConstantAlpha => vk::BlendFactor::CONSTANT_ALPHA,
+        BlendFactor::OneMinusConstantAlpha => vk::BlendFactor::ONE_MINUS_CONSTANT_ALPHA,
+        BlendFactor::SrcAlphaSaturate => vk::BlendFactor::SRC_ALPHA_SATURATE,
+        BlendFactor::Src1Color => vk::BlendFactor::SRC1_COLOR,
+        BlendFactor::OneMinusSrc1Color => vk::BlendFactor::ONE_MINUS_SRC1_COLOR,
+        BlendFactor::Src1Alpha => vk::BlendFactor::SRC1_ALPHA,
+        BlendFactor::OneMinusSrc1Alpha => vk::BlendFactor::ONE_MINUS_SRC1_ALPHA,
+    }
+}
+
+pub(crate) fn blend_op(op: BlendOp) -> vk::BlendOp {
+    match op {
+        BlendOp::Add => vk::BlendOp::ADD,
+        BlendOp::Subtract => vk::BlendOp::SUBTRACT,
+        BlendOp::ReverseSubtract => vk::BlendOp::REVERSE_SUBTRACT,
+        BlendOp::Min => vk::BlendOp::MIN,
+        BlendOp::Max => vk::BlendOp::MAX,
     }
 }

@@ -7,9 +7,9 @@ use super::handle::Gpu;
 use super::object_cache::ObjectCache;
 use crate::shaders::Spirv;
 use ash::vk;
-use framewright_graph::frame::{Blend, StencilState};
+use framewright_graph::frame::{Blend, RasterState, StencilState};
 use framewright_graph::plan::DepthState;
-use framewright_graph::vulkan::{AddressMode, CompareOp, Filter, Rotation};
+use framewright_graph::vulkan::{AddressMode, ColorComponents, CompareOp, Filter, Rotation};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// The caches of a device.
@@ -135,8 +135,9 @@ pub(crate) struct GraphicsDescriptor {
     pub(crate) strides: Vec<u32>,
     pub(crate) attributes: Vec<VertexAttribute>,
     pub(crate) formats: ScopeFormats,
-    /// How each colour attachment is blended. `None`: it isn't written.
-    pub(crate) blend: Vec<Option<Blend>>,
+    /// How each colour attachment is blended, and which channels of it are written. `None`: it isn't written.
+    pub(crate) blend: Vec<Option<(Blend, ColorComponents)>>,
+    pub(crate) raster: RasterState,
     pub(crate) depth: Option<DepthState>,
     pub(crate) stencil: Option<StencilState>,
     pub(crate) alpha_to_coverage: bool,

@@ -108,6 +108,11 @@ const NEEDED_FEATURES: [OptionalFeature; 34] = [
     ("drawIndirectFirstInstance", "draws whose counts, in a buffer, have a first instance that isn't 0", |it| {
         &mut it.core.draw_indirect_first_instance
     }),
+    ("depthBiasClamp", "a bound of the depth bias", |it| &mut it.core.depth_bias_clamp),
+    ("depthClamp", "depth that is clamped to the near and far plane", |it| &mut it.core.depth_clamp),
+    ("dualSrcBlend", "blends with a second colour of the shader", |it| &mut it.core.dual_src_blend),
+    ("wideLines", "lines that are wider than a texel", |it| &mut it.core.wide_lines),
+    ("largePoints", "points of the size that a shader says", |it| &mut it.core.large_points),
     ("scalarBlockLayout", "blocks in scalar layout", |it| &mut it.v1_2.scalar_block_layout),
     ("uniformBufferStandardLayout", "uniform blocks in the layout of storage blocks, std430", |it| {
         &mut it.v1_2.uniform_buffer_standard_layout

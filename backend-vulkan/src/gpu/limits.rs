@@ -20,6 +20,12 @@ impl Gpu {
     }
 }
 
+/// The whole part of a limit.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "limits are no less than 0")]
+fn whole(limit: f32) -> u64 {
+    limit as u64
+}
+
 fn limits_of(limits: &vk::PhysicalDeviceLimits, buffer_bytes: u64) -> Limits {
     let [workgroup_x, workgroup_y, workgroup_z] = limits.max_compute_work_group_size.map(u64::from);
     Limits {
@@ -45,5 +51,6 @@ fn limits_of(limits: &vk::PhysicalDeviceLimits, buffer_bytes: u64) -> Limits {
         set_storage_blocks: limits.max_descriptor_set_storage_buffers.into(),
         set_input_attachments: limits.max_descriptor_set_input_attachments.into(),
         fragment_resources: limits.max_fragment_combined_output_resources.into(),
+        line_width: whole(limits.line_width_range[1]),
     }
 }

@@ -5,7 +5,8 @@ use super::shader_module::ShaderModule;
 use crate::base::{Error, convert};
 use crate::gpu::{Gpu, GraphicsDescriptor, RotationConstants, VertexAttribute};
 use ash::vk;
-use framewright_graph::frame::Blend;
+use framewright_graph::frame::{Blend, RasterState};
+use framewright_graph::vulkan::ColorComponents;
 
 impl RotationConstants {
     /// The number of the first of its constants.
@@ -51,9 +52,9 @@ pub(super) fn create(gpu: &Gpu, descriptor: &GraphicsDescriptor) -> Result<(vk::
         vertex_input = vertex_input.vertex_binding_descriptions(&bindings);
     }
     let input_assembly =
-        vk::PipelineInputAssemblyStateCreateInfo::default().topology(vk::PrimitiveTopology::TRIANGLE_LIST);
+        vk::PipelineInputAssemblyStateCreateInfo::default().topology(convert::topology(descriptor.raster.topology));
     let viewport = vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
-    let raster = vk::PipelineRasterizationStateCreateInfo::default().line_width(1.0);
+    let raster = raster_state(&descriptor.raster);
     let multisample = vk::PipelineMultisampleStateCreateInfo::default()
         .rasterization_samples(formats.samples)
         .alpha_to_coverage_enable(descriptor.alpha_to_coverage);
@@ -77,7 +78,9 @@ pub(super) fn create(gpu: &Gpu, descriptor: &GraphicsDescriptor) -> Result<(vk::
         depth = depth.stencil_test_enable(true).front(face).back(face);
     }
     let blends = or_unused(descriptor.blend.iter().map(|blend| blend_state(*blend)));
-    let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&blends);
+    let blend = vk::PipelineColorBlendStateCreateInfo::default()
+        .attachments(&blends)
+        .blend_constants(descriptor.raster.blend_constants.map(f32::from));
     let dynamic = [
         vk::DynamicState::VIEWPORT,
         vk::DynamicState::SCISSOR,
@@ -131,24 +134,35 @@ fn attribute(attribute: &VertexAttribute) -> vk::VertexInputAttributeDescription
     vk::VertexInputAttributeDescription { location, binding, format, offset }
 }
 
-/// Alpha blends like colour, with its own new value taken whole. Without blending nothing is written.
-fn blend_state(blend: Option<Blend>) -> vk::PipelineColorBlendAttachmentState {
-    use vk::BlendFactor as Factor;
-    let Some(blend) = blend else { return vk::PipelineColorBlendAttachmentState::default() };
+/// Cull mode and front face are set while recording.
+fn raster_state(raster: &RasterState) -> vk::PipelineRasterizationStateCreateInfo<'static> {
+    let state = vk::PipelineRasterizationStateCreateInfo::default()
+        .line_width(raster.line_width.into())
+        .depth_clamp_enable(raster.depth_clamp);
+    match raster.depth_bias {
+        None => state,
+        Some(bias) => state
+            .depth_bias_enable(true)
+            .depth_bias_constant_factor(bias.constant.into())
+            .depth_bias_slope_factor(bias.slope.into())
+            .depth_bias_clamp(bias.clamp.into()),
+    }
+}
+
+/// Where a pass doesn't draw, nothing is written.
+fn blend_state(blend: Option<(Blend, ColorComponents)>) -> vk::PipelineColorBlendAttachmentState {
+    let Some((blend, written)) = blend else { return vk::PipelineColorBlendAttachmentState::default() };
     let state = vk::PipelineColorBlendAttachmentState::default()
-        .color_write_mask(vk::ColorComponentFlags::RGBA)
+        .color_write_mask(convert::color_components(written))
         .color_blend_op(vk::BlendOp::ADD)
         .alpha_blend_op(vk::BlendOp::ADD);
-    let factors = match blend {
-        Blend::Replace => return state,
-        Blend::Alpha => [Factor::SRC_ALPHA, Factor::ONE_MINUS_SRC_ALPHA, Factor::ONE, Factor::ONE_MINUS_SRC_ALPHA],
-        Blend::Premultiplied => [Factor::ONE, Factor::ONE_MINUS_SRC_ALPHA, Factor::ONE, Factor::ONE_MINUS_SRC_ALPHA],
-        Blend::Additive => [Factor::ONE, Factor::ONE, Factor::ONE, Factor::ONE],
-    };
+    let Some(equation) = blend.equation() else { return state };
     state
         .blend_enable(true)
-        .src_color_blend_factor(factors[0])
-        .dst_color_blend_factor(factors[1])
-        .src_alpha_blend_factor(factors[2])
-        .dst_alpha_blend_factor(factors[3])
+        .src_color_blend_factor(convert::blend_factor(equation.src_color))
+        .dst_color_blend_factor(convert::blend_factor(equation.dst_color))
+        .color_blend_op(convert::blend_op(equation.color_op))
+        .src_alpha_blend_factor(convert::blend_factor(equation.src_alpha))
+        .dst_alpha_blend_factor(convert::blend_factor(equation.dst_alpha))
+        .alpha_blend_op(convert::blend_op(equation.alpha_op))
 }

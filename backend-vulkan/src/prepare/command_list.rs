@@ -7,6 +7,9 @@ use crate::base::Error;
 use crate::commands::{TransferCommand, stages_of};
 use crate::gpu::{Gpu, LocalRead};
 use ash::vk;
+use framewright_graph::frame::RasterState;
+use framewright_graph::plan::Pass;
+use framewright_graph::vulkan::{CullMode, FrontFace};
 use std::ffi::CString;
 
 /// The commands of a Plan's frames, as Vulkan's own structures.
@@ -80,6 +83,23 @@ pub(crate) struct DrawCommand {
     /// Its number in [`CommandList::targets`].
     pub(crate) target: u32,
     pub(crate) vertices: DrawnVertices,
+    pub(crate) faces: Faces,
+}
+
+/// What a pass says of faces.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Faces {
+    /// The faces that are left out, whatever the draw source says.
+    pub(crate) cull_mode: Option<CullMode>,
+    /// Whether the front is the back.
+    pub(crate) turned_over: bool,
+}
+
+impl Faces {
+    pub(super) fn of(pass: &Pass) -> Faces {
+        let RasterState { cull_mode, front_face, .. } = pass.raster;
+        Faces { cull_mode, turned_over: front_face == FrontFace::Clockwise }
+    }
 }
 
 /// What a pass's pipeline reads of the pass's own.

@@ -26,8 +26,8 @@ mod variant;
 pub(crate) use batches::{Batch, batches};
 pub(crate) use check::{Refusals, check, check_alone};
 pub(crate) use command_list::{
-    Bindings, Command, CommandList, DispatchCommand, DrawCommand, DrawCounts, DrawnVertices, OwnDraw, ScopeCommand,
-    WorkgroupCount,
+    Bindings, Command, CommandList, DispatchCommand, DrawCommand, DrawCounts, DrawnVertices, Faces, OwnDraw,
+    ScopeCommand, WorkgroupCount,
 };
 pub(crate) use descriptions::{buffer_descriptor, cycle, descriptor, part};
 pub(crate) use draw_target::{DrawTarget, scissor, viewport};

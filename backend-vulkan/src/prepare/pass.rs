@@ -1,7 +1,7 @@
 //! A pass's pipeline, the template of its descriptor set, and its command.
 
 use super::command_list::{
-    Bindings, CommandList, DispatchCommand, DrawCommand, DrawCounts, DrawnVertices, OwnDraw, Run, WorkgroupCount,
+    Bindings, CommandList, DispatchCommand, DrawCommand, DrawCounts, DrawnVertices, Faces, OwnDraw, Run, WorkgroupCount,
 };
 use super::frame::Frame;
 use super::pass_set::PassSets;
@@ -15,7 +15,7 @@ use ash::vk;
 use framewright_graph::frame::{BufferRole, Draw, EyeForm, Groups};
 use framewright_graph::plan::{self, BufferId, Plan, RenderScope};
 use framewright_graph::shader::{DrawInterface, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem};
-use framewright_graph::vulkan::Accesses;
+use framewright_graph::vulkan::{Accesses, PrimitiveTopology};
 use std::sync::Arc;
 
 /// The objects of a pass of a rendering scope.
@@ -99,7 +99,8 @@ impl PreparedDraw {
         };
         let bindings = bindings(list, frame, plan, &mut self.sets, self.state.supplied.layout)?;
         let pipeline = self.pipeline.as_ref().map(|pipeline| pipeline.raw);
-        Ok(DrawCommand { pipeline, bindings, pass, target, vertices })
+        let faces = Faces::of(plan);
+        Ok(DrawCommand { pipeline, bindings, pass, target, vertices, faces })
     }
 }
 
@@ -243,6 +244,7 @@ pub(super) fn prepare_draw(
     check_needs(gpu, &shader.interface, brought.supplied.iter(), scope.color().len()).map_err(mismatch)?;
     check_supplied(&shader.interface, &brought).map_err(mismatch)?;
     check_outputs(&shader.interface, plan, &written).map_err(mismatch)?;
+    check_raster(gpu, &shader.interface, pass).map_err(mismatch)?;
     check_covers(&shader.interface, plan, scope, pass).map_err(mismatch)?;
     let own_vertices = draw.has_own_vertices() && !wanted.is_empty();
     let (attributes, strides) = if own_vertices {
@@ -259,7 +261,10 @@ pub(super) fn prepare_draw(
     let sets = PassSets::new(gpu, plan, pass, &shader.interface.bindings)?;
     let supplied = SuppliedSets::new(gpu, sets.layout, &shader.interface, &brought)?;
     let local = local_read(gpu, scope, pass, &shader, &targets).map_err(mismatch)?;
-    let blend = |number: &usize| pass.blend.get(*number).copied().filter(|_| targets.contains(number));
+    let blend = |number: &usize| {
+        let blend = pass.blend.get(*number).filter(|_| targets.contains(number))?;
+        Some((*blend, pass.write_mask(*number)))
+    };
     let rotation = plan.rotation(scope);
     let extent = if shader.interface.uses_frag_coord { scope.extent } else { [0; 2] };
     let placed = form == Some(EyeForm::Halves) && shader.interface.uses_frag_coord;
@@ -272,6 +277,7 @@ pub(super) fn prepare_draw(
         attributes,
         formats: formats.clone(),
         blend: (0..scope.color().len()).map(|number| blend(&number)).collect(),
+        raster: pass.raster.of_pipeline(),
         depth: pass.depth,
         stencil: pass.stencil,
         alpha_to_coverage: pass.alpha_to_coverage,
@@ -283,6 +289,30 @@ pub(super) fn prepare_draw(
     let usual_vertices = shader.usual_vertices;
     let state = PassState { formats: formats.clone(), supplied, vertex_stride: brought_stride, usual_vertices };
     Ok(PreparedDraw { pipeline, local, state, vertices, ..nothing(sets) })
+}
+
+/// The device must have what raster state and blends need, and the shader what they take of it.
+fn check_raster(gpu: &Gpu, shader: &ShaderInterface, pass: &plan::Pass) -> Result<(), String> {
+    let of_blends = pass.blend.iter().filter_map(|blend| blend.feature());
+    for (feature, what) in pass.raster.features().chain(of_blends) {
+        if !gpu.features.has(feature) {
+            return Err(format!("{what} needs the feature {feature}, which this device doesn't have"));
+        }
+    }
+    let limits = gpu.shader_limits();
+    for (limit, value, what) in pass.raster.limits() {
+        #[allow(clippy::cast_precision_loss, reason = "such limits are small")]
+        if value > limits.of(limit) as f32 {
+            return Err(format!("{what} is {value}, and this device allows {} ({})", limits.of(limit), limit.name()));
+        }
+    }
+    if pass.blend.iter().any(|blend| blend.takes_second_source()) && !shader.second_source {
+        return Err(format!("shader `{}` has no second colour to blend with", pass.shader));
+    }
+    if pass.raster.topology == PrimitiveTopology::PointList && !shader.point_size {
+        return Err(format!("shader `{}` doesn't say how large its points are", pass.shader));
+    }
+    Ok(())
 }
 
 /// The Plan must know what the shader leaves as it was, where it relies on that: it may have been made before the shader was changed.

@@ -18,7 +18,7 @@ use framewright_graph::frame::{
     Blend, ColorTarget, DepthTarget, Draw, EyeForm, Face, Frame, Image, ImageIndex, Pass, Resolve, ResolveWay,
     Resource, SampledImage, Stereo, Work,
 };
-use framewright_graph::vulkan::{CompareOp, Format, ResolveMode, Stages, Subresources};
+use framewright_graph::vulkan::{ColorComponents, CompareOp, Format, ResolveMode, Stages, Subresources};
 
 /// Depth alone: what has stencil too isn't resolved.
 const FORMATS: [Format; 3] = [Format::D16_UNORM, Format::X8_D24_UNORM_PACK32, Format::D32_SFLOAT];
@@ -150,7 +150,7 @@ fn frame(stereo: Stereo, format: Format, samples: u32, modes: &[ResolveMode]) ->
     let slope =
         SampledImage { face: Face::Samples, ..SampledImage::new("slope", ImageIndex(1), Stages::FRAGMENT_SHADER) };
     let target =
-        ColorTarget { image: ImageIndex(0), range: whole, span: Span::NONE, clear: None, blend: Blend::Replace };
+        ColorTarget { image: ImageIndex(0), range: whole, span: Span::NONE, clear: None, blend: Blend::Replace, write_mask: ColorComponents::RGBA };
     frame.passes.push(Pass { sampled: vec![slope], color: vec![target], ..full_screen("expect", "expect") });
     frame.outputs = (0..).take(frame.images.len()).map(|image| Resource::Image(ImageIndex(image)).into()).collect();
     frame

@@ -10,7 +10,7 @@ use crate::gpu::Device;
 use framewright_graph::base::Span;
 use framewright_graph::device::Profile;
 use framewright_graph::frame::{Blend, ColorTarget, Draw, Frame, Image, ImageIndex, Pass, Resource, Work};
-use framewright_graph::vulkan::{Format, Subresources};
+use framewright_graph::vulkan::{ColorComponents, Format, Subresources};
 
 /// One of each width, and one of signed integers, with the shader that draws it.
 const FORMATS: [(Format, &str); 4] = [
@@ -71,7 +71,7 @@ fn frame(claimed: &Profile, samples: u32) -> Frame {
         let image = ImageIndex(number);
         let work = Work::Draw { draw: Draw::FullScreen, shader: shader.into(), discards: false, per_sample: true };
         let (range, span) = (Subresources::WHOLE, Span::NONE);
-        let target = ColorTarget { image, range, span, clear: None, blend: Blend::Replace };
+        let target = ColorTarget { image, range, span, clear: None, blend: Blend::Replace, write_mask: ColorComponents::RGBA };
         frame.images.push(Image { samples, ..Image::new(&name, format, 1, 1) });
         frame.passes.push(Pass { color: vec![target], ..Pass::new(&name, work) });
         frame.outputs.push(Resource::Image(image).into());

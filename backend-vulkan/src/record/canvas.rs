@@ -1,11 +1,12 @@
 //! What a pass draws into: viewport and scissor of an eye's picture, and the draws that it takes to draw for both eyes at once.
 
-use super::state::{CommandState, CullMode, FrontFace};
-use crate::base::numbers;
+use super::state::CommandState;
+use crate::base::{convert, numbers};
 use crate::gpu::Gpu;
-use crate::prepare::{DrawTarget, scissor, viewport};
+use crate::prepare::{DrawTarget, Faces, scissor, viewport};
 use ash::vk;
 use framewright_graph::frame::{EyeForm, Stereo};
+use framewright_graph::vulkan::{CullMode, FrontFace};
 use std::ops::Range;
 
 /// Set in the number of an instance that is the right eye's.
@@ -17,6 +18,7 @@ pub(super) struct Canvas<'f> {
     pub(super) commands: vk::CommandBuffer,
     pub(super) state: &'f mut CommandState,
     pub(super) target: &'f DrawTarget,
+    faces: Faces,
     /// The rectangles of viewport and scissor, where they aren't all of the picture and each eye's half has its own.
     viewport: Option<[f64; 4]>,
     scissor: Option<[f64; 4]>,
@@ -28,8 +30,9 @@ impl<'f> Canvas<'f> {
         commands: vk::CommandBuffer,
         state: &'f mut CommandState,
         target: &'f DrawTarget,
+        faces: Faces,
     ) -> Canvas<'f> {
-        Canvas { gpu, commands, state, target, viewport: None, scissor: None }
+        Canvas { gpu, commands, state, target, faces, viewport: None, scissor: None }
     }
 
     /// Sets viewport and scissor to all of the picture, and what faces are as each pass finds it.
@@ -40,29 +43,24 @@ impl<'f> Canvas<'f> {
         self.record_viewport(self.target.viewport)
     }
 
-    /// Says which faces are left out from now on.
+    /// Says which faces are left out from now on, unless the pass says that.
     pub(super) fn set_cull_mode(&mut self, mode: CullMode) {
+        let mode = self.faces.cull_mode.unwrap_or(mode);
         if !self.state.needs_cull_mode(mode) {
             return;
         }
-        let mode = match mode {
-            CullMode::None => vk::CullModeFlags::NONE,
-            CullMode::Front => vk::CullModeFlags::FRONT,
-            CullMode::Back => vk::CullModeFlags::BACK,
-        };
+        let mode = convert::cull_mode(mode);
         // SAFETY: the command buffer is being recorded, and the state is dynamic in every pipeline.
         unsafe { self.gpu.raw.cmd_set_cull_mode(self.commands, mode) };
     }
 
-    /// Says which side is the front from now on, after the projection, which flips y.
+    /// Says which side is the front from now on, after the projection, which flips y. A pass may turn all faces over.
     pub(super) fn set_front_face(&mut self, face: FrontFace) {
+        let face = if self.faces.turned_over { face.turned_over() } else { face };
         if !self.state.needs_front_face(face) {
             return;
         }
-        let face = match face {
-            FrontFace::CounterClockwise => vk::FrontFace::COUNTER_CLOCKWISE,
-            FrontFace::Clockwise => vk::FrontFace::CLOCKWISE,
-        };
+        let face = convert::front_face(face);
         // SAFETY: the command buffer is being recorded, and the state is dynamic in every pipeline.
         unsafe { self.gpu.raw.cmd_set_front_face(self.commands, face) };
     }

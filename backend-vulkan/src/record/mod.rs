@@ -24,7 +24,6 @@ pub use custom_image::CustomImage;
 pub use dispatch::DispatchRecorder;
 pub use draw_source::DrawSource;
 pub use recorder::{IndexType, Recorder};
-pub use state::{CullMode, FrontFace};
 pub use timing::{FrameReport, PassReport, StepReport};
 
 pub(crate) use breadcrumbs::Breadcrumbs;

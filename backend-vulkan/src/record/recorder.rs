@@ -4,7 +4,6 @@ use super::bound_sets::BoundSets;
 use super::canvas::Canvas;
 use super::custom_image::{CustomImage, named_buffer};
 use super::frame_resources::HeldResources;
-use super::state::{CullMode, FrontFace};
 use crate::base::numbers;
 use crate::gpu::ScopeFormats;
 use crate::prepare::{Frame, PassState, PreparedDraw};
@@ -12,7 +11,7 @@ use crate::resources::{BindGroup, Buffer};
 use ash::vk;
 use framewright_graph::frame::{EyeForm, ParamValue, Stereo};
 use framewright_graph::plan;
-use framewright_graph::vulkan::Rotation;
+use framewright_graph::vulkan::{CullMode, FrontFace, Rotation};
 use std::ops::Range;
 
 /// The type of an index.

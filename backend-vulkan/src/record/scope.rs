@@ -47,7 +47,7 @@ impl Recording<'_> {
             }
             bind(gpu, commands, graphics, list, &draw.bindings);
         }
-        let mut canvas = Canvas::new(gpu, commands, &mut self.state, &list.targets[draw.target as usize]);
+        let mut canvas = Canvas::new(gpu, commands, &mut self.state, &list.targets[draw.target as usize], draw.faces);
         let begun = canvas.begin();
         let planned = || &self.frame.plan.steps[step].work.passes()[draw.pass as usize];
         let drawn = match &draw.vertices {

@@ -1,26 +1,7 @@
 //! The state of a command buffer: what is set already isn't set again.
 
 use ash::vk;
-
-/// The faces that are left out.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum CullMode {
-    /// None.
-    None,
-    /// Faces seen from the front.
-    Front,
-    /// Faces seen from behind.
-    Back,
-}
-
-/// The direction in which the vertices of a face go round, seen from its front.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum FrontFace {
-    /// Counter-clockwise, as in glTF.
-    CounterClockwise,
-    /// Clockwise: counter-clockwise mirrored.
-    Clockwise,
-}
+use framewright_graph::vulkan::{CullMode, FrontFace};
 
 /// Pipelines and dynamic state that a command buffer was given so far. Dynamic state outlasts pipelines and scopes, since it is
 /// dynamic in every pipeline.

@@ -8,7 +8,7 @@ use super::module::{IndexedModule, id, number, storage_class};
 use super::needs::{Needed, needs};
 use super::rotation;
 use super::text::RefusedStage;
-use super::varyings::{Varying, varyings, vertex_inputs};
+use super::varyings::{Varying, varyings, vertex_inputs, writes_point_size};
 use super::{coverage, distances};
 use crate::base::{ShaderStage, StageFacts};
 use framewright_graph::shader::{FragmentOutput, PARAMS, PASS_SET, ShaderInterface};
@@ -75,6 +75,8 @@ pub(super) fn reflect(
         bindings,
         vertex_inputs: if vertex { vertex_inputs(&inputs)? } else { Vec::new() },
         outputs: if fragment { fragment_outputs(&module)? } else { Vec::new() },
+        second_source: fragment && has_second_source(&module),
+        point_size: vertex && writes_point_size(&module, &used),
         discards: module
             .code()
             .any(|it| matches!(it.class.opcode, Op::Kill | Op::TerminateInvocation | Op::DemoteToHelperInvocation)),
@@ -198,13 +200,24 @@ fn check_own_memory(module: &IndexedModule<'_>) -> Result<(), RefusedStage> {
     Ok(())
 }
 
+/// Whether an output is the second colour of a blend.
+fn is_second_source(module: &IndexedModule<'_>, output: u32) -> bool {
+    module.decoration_number(output, Decoration::Index).is_some_and(|index| index > 0)
+}
+
+/// Whether a fragment stage has a second colour for the target at location 0.
+fn has_second_source(module: &IndexedModule<'_>) -> bool {
+    let mut outputs = module.variables().filter(|(_, it)| storage_class(it) == Some(StorageClass::Output));
+    outputs.any(|(id, _)| is_second_source(module, id) && module.decoration_number(id, Decoration::Location) == Some(0))
+}
+
 /// Colour outputs by location; an array takes a location for each element.
 fn fragment_outputs(module: &IndexedModule<'_>) -> Result<Vec<FragmentOutput>, RefusedStage> {
     let mut outputs = Vec::new();
     for (id_of, it) in module.variables().filter(|(_, it)| storage_class(it) == Some(StorageClass::Output)) {
         let Some(location) = module.decoration_number(id_of, Decoration::Location) else { continue };
         // The second source of a blend is no output of its own.
-        if module.decoration_number(id_of, Decoration::Index).is_some_and(|index| index > 0) {
+        if is_second_source(module, id_of) {
             continue;
         }
         let Some(mut ty) = module.pointee(it) else { continue };

@@ -48,6 +48,7 @@ pub(super) fn join(vertex: &CompiledStage, fragment: &CompiledStage) -> Result<S
     let mut joined = fragment.reflected.interface.clone();
     joined.vertex_inputs.clone_from(&vertex.reflected.interface.vertex_inputs);
     joined.sees_alike.clone_from(&vertex.reflected.interface.sees_alike);
+    joined.point_size = vertex.reflected.interface.point_size;
     for binding in &vertex.reflected.interface.bindings {
         match joined.bindings.iter_mut().find(|it| (it.set, it.binding) == (binding.set, binding.binding)) {
             None => joined.bindings.push(binding.clone()),

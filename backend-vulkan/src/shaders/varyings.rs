@@ -1,10 +1,10 @@
 //! Values at locations: vertex attributes, what a vertex stage hands over, and what a fragment stage takes.
 
-use super::module::{IndexedModule, number, storage_class};
+use super::module::{IndexedModule, id, number, storage_class};
 use super::text::RefusedStage;
 use framewright_graph::shader::{VertexInput, VertexLayout};
 use rspirv::dr::{Instruction, Operand};
-use rspirv::spirv::{Decoration, Op, StorageClass};
+use rspirv::spirv::{BuiltIn, Decoration, Op, StorageClass};
 use std::collections::HashSet;
 
 /// A value at a location: a variable, or a member of a block.
@@ -49,6 +49,24 @@ fn of_variable(module: &IndexedModule<'_>, id: u32, it: &Instruction, used: bool
         members.push(Varying { location, component, name, ty: module.type_name(of), used });
     }
     Some(members)
+}
+
+/// Whether a vertex stage mentions the size of its points.
+pub(super) fn writes_point_size(module: &IndexedModule<'_>, used: &HashSet<u32>) -> bool {
+    let is_size = |it: Option<Option<&Operand>>| matches!(it, Some(Some(Operand::BuiltIn(BuiltIn::PointSize))));
+    let outputs = || module.variables().filter(|(_, it)| storage_class(it) == Some(StorageClass::Output));
+    if outputs().any(|(output, _)| used.contains(&output) && is_size(module.decoration(output, Decoration::BuiltIn))) {
+        return true;
+    }
+    // GLSL has it as a member of a block.
+    let member = |output: u32, member: u32| {
+        let block = module.pointee(outputs().find(|(id, _)| *id == output)?.1)?.result_id?;
+        Some(is_size(module.member_decoration(block, member, Decoration::BuiltIn)))
+    };
+    module.code().filter(|it| matches!(it.class.opcode, Op::AccessChain | Op::InBoundsAccessChain)).any(|it| {
+        let index = id(it, 1).and_then(|index| module.constant(index));
+        id(it, 0).zip(index).and_then(|(base, index)| member(base, index)).unwrap_or(false)
+    })
 }
 
 /// The vertex attributes that a vertex stage declares: each has its place in a vertex, and Vulkan wants to know of each.

@@ -269,7 +269,7 @@ impl Uses for Pass {
     }
 
     fn draws(mut self, image: ImageIndex, range: Subresources, clear: Option<[f64; 4]>) -> Pass {
-        self.color.push(ColorTarget { image, range, span: Span::NONE, clear, blend: Blend::Replace });
+        self.color.push(ColorTarget { image, range, span: Span::NONE, clear, blend: Blend::Replace, write_mask: Default::default() });
         self
     }
 

@@ -1,7 +1,7 @@
 //! Plans written by hand, with the memory needs of the device that is here.
 
 use framewright_graph::device::{ImageDescriptor, MemoryProvider};
-use framewright_graph::frame::{Blend, Draw, ParamValue, Stereo};
+use framewright_graph::frame::{Blend, Draw, ParamValue, RasterState, Stereo};
 use framewright_graph::plan::{
     Access, Attachment, AttachmentKind, AttachmentResolve, Binding, BindingKind, Cause, DeviceUsed, FORMAT_VERSION,
     Hazard, Heap, Image, ImageBarrier, ImageId, Output, Param, Pass, Placement, Plan, Queue, RenderScope, Resource,
@@ -217,6 +217,8 @@ fn pass(name: &str, shader: &str, draw: Draw, target: ImageId) -> Pass {
         untouched: None,
         covers: false,
         blend: vec![Blend::Replace],
+        write_masks: Vec::new(),
+        raster: RasterState::default(),
         depth: None,
         stencil: None,
         params: Vec::new(),

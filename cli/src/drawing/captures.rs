@@ -172,7 +172,7 @@ mod tests {
     use framewright_graph::base::Span;
     use framewright_graph::frame::Blend;
     use framewright_graph::frame::{ColorTarget, Draw, Image, ImageIndex, Pass, Work};
-    use framewright_graph::vulkan::Subresources;
+    use framewright_graph::vulkan::{ColorComponents, Subresources};
 
     #[test]
     fn batches_hold_all_captures_in_order_within_their_bounds() {
@@ -182,7 +182,7 @@ mod tests {
             frame.images.push(Image::new(&format!("i{}", image.0), Format::R8G8B8A8_SRGB, side, side));
             let work = Work::Draw { draw: Draw::FullScreen, shader: "s".into(), discards: false, per_sample: false };
             let target =
-                ColorTarget { image, range: Subresources::WHOLE, span: Span::NONE, clear: None, blend: Blend::Replace };
+                ColorTarget { image, range: Subresources::WHOLE, span: Span::NONE, clear: None, blend: Blend::Replace, write_mask: ColorComponents::RGBA };
             frame.passes.push(Pass { color: vec![target], ..Pass::new(&format!("p{}", image.0), work) });
         }
         let captures = frame.captures(|_| true).of_passes;

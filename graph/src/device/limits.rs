@@ -99,6 +99,8 @@ limits! {
     SetInputAttachments, set_input_attachments, "maxDescriptorSetInputAttachments", 4;
     /// Storage images and storage blocks that a fragment stage uses, with the colours that it draws into.
     FragmentResources, fragment_resources, "maxFragmentCombinedOutputResources", 4;
+    /// Texels that a line is wide, as far as they are whole.
+    LineWidth, line_width, "lineWidthRange[1]", 1;
 }
 
 impl Default for Limits {

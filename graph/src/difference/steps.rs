@@ -99,7 +99,13 @@ impl<'p> EntryStep<'p> {
         ];
         fields.extend(flags.into_iter().filter(|(_, set)| *set).map(|(name, _)| (name, "yes".to_owned())));
         if pass.blend.iter().any(|blend| *blend != Blend::Replace) {
-            fields.push(("blend", pass.blend.iter().map(name_of).collect::<Vec<_>>().join(", ")));
+            fields.push(("blend", pass.blend.iter().map(in_plan).collect::<Vec<_>>().join(", ")));
+        }
+        if !pass.write_masks.is_empty() {
+            fields.push(("writes", pass.write_masks.iter().map(name_of).collect::<Vec<_>>().join(", ")));
+        }
+        if !pass.raster.is_usual() {
+            fields.push(("raster state", pass.raster.to_string()));
         }
         if let Some(depth) = &pass.depth {
             fields.push((

@@ -2,7 +2,7 @@
 //! depends on it asks here: `expand/shader/coverage.rs` finds out what a shader may leave as it was.
 
 use super::{Blend, ColorTarget, DepthTarget, Draw, Frame, Image, ImageIndex, Pass, Resource, StencilState, Work};
-use crate::vulkan::{Aspects, CompareOp, StencilOp, Subresources};
+use crate::vulkan::{Aspects, ColorComponents, CompareOp, StencilOp, Subresources};
 use std::sync::Arc;
 
 impl Pass {
@@ -22,7 +22,7 @@ impl Pass {
 
     /// Why the draw into `target`, a part of `image`, may leave texels as they were, if it would replace every one otherwise.
     pub(crate) fn untouched_color(&self, target: &ColorTarget, image: &Image) -> Option<&Arc<str>> {
-        self.untouched.as_ref().filter(|_| target.blend == Blend::Replace && self.fills(image, target.range))
+        self.untouched.as_ref().filter(|_| target.replaces(image) && self.fills(image, target.range))
     }
 
     /// The same of one plane of `target`.
@@ -32,7 +32,7 @@ impl Pass {
 
     /// Whether the draw into `target`, a part of `image`, replaces every texel.
     fn covers_color(&self, target: &ColorTarget, image: &Image) -> bool {
-        target.blend == Blend::Replace && self.reaches_every_texel(image, target.range)
+        target.replaces(image) && self.reaches_every_texel(image, target.range)
     }
 
     /// Whether the draw into one plane of `target`, a part of `image`, replaces every texel.
@@ -43,7 +43,9 @@ impl Pass {
     /// Whether it draws a fragment that passes all tests at every sample, or is promised to.
     fn reaches_every_texel(&self, image: &Image, range: Subresources) -> bool {
         let leaves_out = self.work.discards() || self.alpha_to_coverage || self.untouched.is_some();
-        self.covers && image.part(range).layers == 1 || !leaves_out && self.fills(image, range)
+        // Which face a full-screen triangle shows isn't known of every shader, so that any culling may leave it out.
+        let drawn = !leaves_out && !self.raster.culls() && self.fills(image, range);
+        !self.raster.draws_nothing() && (self.covers && image.part(range).layers == 1 || drawn)
     }
 
     /// Whether it draws over a part of `image`, and no test fails. A triangle reaches only one of several layers.
@@ -76,6 +78,13 @@ impl Frame {
         } else {
             None
         }
+    }
+}
+
+impl ColorTarget {
+    /// Whether fragments set all channels of `image`, and nothing of the old ones goes into them.
+    fn replaces(&self, image: &Image) -> bool {
+        self.blend == Blend::Replace && self.write_mask.contains(ColorComponents::first(image.format.components()))
     }
 }
 

@@ -19,6 +19,7 @@ mod output;
 mod param;
 mod part;
 mod pass;
+mod raster;
 mod resource;
 mod texture;
 pub(crate) mod tracked_parts;
@@ -38,6 +39,7 @@ pub use output::Output;
 pub use param::ParamValue;
 pub(crate) use part::TargetShape;
 pub use pass::Pass;
+pub use raster::{BlendEquation, DepthBias, RasterState, Real};
 pub(crate) use resource::allocated_extent;
 pub use resource::{Buffer, ChosenFormat, Image, Lifetime, Resolve, ResolveWay, SAMPLE_COUNTS};
 pub use texture::{

@@ -1,6 +1,6 @@
 //! Passes of a frame, and their work.
 
-use super::{BufferUse, ColorTarget, DepthTarget, ParamValue, SampledImage, Storage, TransferUse, ViewIndex, Work};
+use super::{BufferUse, ColorTarget, DepthTarget, ParamValue, RasterState, SampledImage, Storage, TransferUse, ViewIndex, Work};
 use crate::base::Span;
 use crate::device::Need;
 use std::sync::Arc;
@@ -24,6 +24,10 @@ pub struct Pass {
     pub color: Vec<ColorTarget>,
     /// Depth (and stencil) attachment.
     pub depth: Option<DepthTarget>,
+    /// How its primitives become fragments.
+    pub raster: RasterState,
+    /// Where that was said; of no place if nothing was.
+    pub raster_span: Span,
     /// Whether the alpha of the first colour says how many samples are covered, where the targets have several.
     pub alpha_to_coverage: bool,
     /// Whether the file promises that it sets every texel of its targets; blending and tests need what is there all the same.
@@ -62,6 +66,8 @@ impl Pass {
             storage: Vec::new(),
             color: Vec::new(),
             depth: None,
+            raster: RasterState::default(),
+            raster_span: Span::NONE,
             alpha_to_coverage: false,
             covers: false,
             untouched: None,

@@ -1,8 +1,8 @@
 //! How a pass names the images and buffers that it uses: sampled, as storage, as attachment, as buffer, by transfer.
 
-use super::{BufferIndex, BufferRole, Eye, ImageIndex, Resource};
+use super::{BlendEquation, BufferIndex, BufferRole, Eye, ImageIndex, Resource};
 use crate::base::Span;
-use crate::vulkan::{Aspects, CompareOp, Filter, Format, ImageShape, Sampler, Stages, StencilOp, Subresources};
+use crate::vulkan::{Aspects, ColorComponents, CompareOp, Filter, Format, ImageShape, Sampler, Stages, StencilOp, Subresources};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -103,6 +103,8 @@ pub struct ColorTarget {
     pub clear: Option<[f64; 4]>,
     /// How new colour meets old.
     pub blend: Blend,
+    /// The channels that it writes; the others keep what they held.
+    pub write_mask: ColorComponents,
 }
 
 /// How new colour meets old.
@@ -117,6 +119,8 @@ pub enum Blend {
     Premultiplied,
     /// `new + old`.
     Additive,
+    /// By factors and operations.
+    Equation(BlendEquation),
 }
 
 /// A depth attachment.

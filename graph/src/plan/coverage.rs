@@ -4,7 +4,7 @@
 
 use super::{Attachment, Pass, RenderScope};
 use crate::frame::{Blend, Draw};
-use crate::vulkan::{CompareOp, StencilOp};
+use crate::vulkan::{ColorComponents, CompareOp, StencilOp};
 
 impl Pass {
     /// Whether a Plan takes the pass to set every texel of an attachment. `scope` is the rendering scope of the pass. An executor checks that
@@ -14,17 +14,21 @@ impl Pass {
         let untested = self.depth.is_none_or(|depth| depth.test == CompareOp::Always)
             && self.stencil.is_none_or(|stencil| stencil.test == CompareOp::Always);
         let leaves_out = self.discards || self.alpha_to_coverage || self.untouched.is_some();
-        let fills = untested && !leaves_out && self.draw.is_some_and(Draw::is_full_screen);
+        let fills = untested && !leaves_out && !self.raster.culls() && self.draw.is_some_and(Draw::is_full_screen);
         let draws_into = |target: &Attachment| {
             let to = (target.image, target.range);
             self.accesses.iter().any(|access| access.binding.is_none() && (access.image, access.range) == to)
         };
-        let mut colors = scope.color().iter().zip(&self.blend);
+        let mut colors = scope.color().iter().enumerate().zip(&self.blend);
         let deep = self.depth.is_some_and(|depth| depth.write);
         let marks = self.stencil.is_some_and(|it| matches!(it.pass, StencilOp::Zero | StencilOp::Replace));
         scope.layers == 1
+            && !self.raster.draws_nothing()
             && (self.covers || fills)
             && (untested && (deep || marks)
-                || colors.any(|(target, blend)| *blend == Blend::Replace && draws_into(target)))
+                || colors.any(|((at, target), blend)| {
+                    let whole = *blend == Blend::Replace && self.write_mask(at) == ColorComponents::RGBA;
+                    whole && draws_into(target)
+                }))
     }
 }

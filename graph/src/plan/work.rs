@@ -1,9 +1,9 @@
 //! The work of a Plan's steps: rendering scopes, passes, dispatches, resolves, copies, fills.
 
 use super::{BufferId, Cause, ImageId, Reason, Resource, ViewId};
-use crate::frame::{Blend, BufferRole, Draw, Eye, Groups, ParamValue, StencilState};
+use crate::frame::{Blend, BufferRole, Draw, Eye, Groups, ParamValue, RasterState, StencilState};
 use crate::vulkan::{
-    Accesses, Aspects, CompareOp, FillValue, Filter, ImageShape, Layout, LoadOp, ResolveMode, Sampler, Stages, StoreOp,
+    Accesses, Aspects, ColorComponents, CompareOp, FillValue, Filter, ImageShape, Layout, LoadOp, ResolveMode, Sampler, Stages, StoreOp,
     Subresources,
 };
 use serde::{Deserialize, Serialize};
@@ -153,6 +153,12 @@ pub struct Pass {
     pub alpha_to_coverage: bool,
     /// How new colour meets old, for each colour attachment of the scope.
     pub blend: Vec<Blend>,
+    /// The channels that it writes, for each colour attachment of the scope; empty: all of each.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub write_masks: Vec<ColorComponents>,
+    /// How its primitives become fragments.
+    #[serde(default, skip_serializing_if = "RasterState::is_usual")]
+    pub raster: RasterState,
     /// Depth comparison and whether passing fragments write depth; `None`: no test, no write.
     pub depth: Option<DepthState>,
     /// Stencil test and update; `None`: no test, no update.
@@ -171,6 +177,14 @@ pub struct Pass {
     pub local_barrier: bool,
     /// Why it shares its scope with the pass before it. Boxed, since few passes do.
     pub merged: Option<Box<Reason>>,
+}
+
+impl Pass {
+    /// The channels that it writes of the colour attachment at this place.
+    #[must_use]
+    pub fn write_mask(&self, attachment: usize) -> ColorComponents {
+        self.write_masks.get(attachment).copied().unwrap_or_default()
+    }
 }
 
 /// Depth comparison and writing.

@@ -224,6 +224,6 @@ impl Form {
 }
 
 /// The names of choices that have values.
-pub(crate) fn names<T, const N: usize>(choices: &[(&'static str, T); N]) -> Vec<&'static str> {
+pub(crate) fn names<T>(choices: &[(&'static str, T)]) -> Vec<&'static str> {
     choices.iter().map(|(name, _)| *name).collect()
 }

@@ -43,6 +43,10 @@ pub struct ShaderInterface {
     pub vertex_inputs: Vec<VertexInput>,
     /// Colour outputs of the fragment stage.
     pub outputs: Vec<FragmentOutput>,
+    /// Whether the fragment stage writes a second colour for the first target, at `location = 0, index = 1`.
+    pub second_source: bool,
+    /// Whether the vertex stage writes `gl_PointSize`.
+    pub point_size: bool,
     /// Whether the fragment stage may discard fragments.
     pub discards: bool,
     /// Whether the fragment stage writes `gl_SampleMask`, and may leave out samples by it.

@@ -16,7 +16,7 @@ use super::work::{is_attached, mip_extent};
 use crate::frame::{Blend, Draw};
 use crate::plan::{self, Attachment, AttachmentKind, BufferId, ImageId, Pass, RenderScope, Side, Transfer, Work};
 use crate::vulkan::{
-    Accesses, BufferUsage, CompareOp, Layout, LoadOp, Stages, StencilOp, StoreOp, Subresources, Usage,
+    Accesses, BufferUsage, ColorComponents, CompareOp, CullMode, Layout, LoadOp, Stages, StencilOp, StoreOp, Subresources, Usage,
 };
 
 /// How an access is kept apart from others of its step.
@@ -229,7 +229,7 @@ fn pass_accesses(pass: &Pass, scope: Option<&RenderScope>, to: &mut Builder) {
             accesses if accesses.intersects(Accesses::INPUT_ATTACHMENT_READ) && own() => Kind::Local,
             _ => Kind::Plain,
         };
-        let whole = |scope| if attachment { replaces(scope, pass, access) } else { true };
+        let whole = |scope| if attachment { replaces(&to.plan.images, scope, pass, access) } else { true };
         let read = if pairs.reads().is_empty() { 0 } else { does::READ };
         let write = match (pairs.writes().is_empty(), scope) {
             (true, _) => 0,
@@ -254,18 +254,24 @@ fn pass_accesses(pass: &Pass, scope: Option<&RenderScope>, to: &mut Builder) {
 }
 
 /// Whether a draw is sure to set every texel of its attachment.
-fn replaces(scope: &RenderScope, pass: &Pass, access: &plan::Access) -> bool {
+fn replaces(images: &[plan::Image], scope: &RenderScope, pass: &Pass, access: &plan::Access) -> bool {
     let untested = pass.depth.is_none_or(|depth| depth.test == CompareOp::Always);
     let unmasked = pass.stencil.is_none_or(|stencil| stencil.test == CompareOp::Always);
     let same = |attachment: &Attachment| attachment.image == access.image && attachment.range == access.range;
     let deep = pass.depth.is_some_and(|depth| depth.write);
     let set = pass.stencil.is_some_and(|stencil| matches!(stencil.pass, StencilOp::Zero | StencilOp::Replace));
-    let mut targets = scope.color().iter().zip(&pass.blend);
+    let mut targets = scope.color().iter().enumerate().zip(&pass.blend);
     let passes = untested && unmasked;
+    // A face that is left out leaves what was there; which one the screen's triangle shows is its shader's business.
+    let culled = pass.raster.cull_mode.filter(|_| pass.raster.topology.has_faces()).unwrap_or(CullMode::None);
     let proven = pass.draw.is_some_and(Draw::is_full_screen) && !pass.discards && pass.untouched.is_none() && passes;
+    let all_channels = |at: usize, target: &Attachment| {
+        let has = ColorComponents::first(images[target.image.0 as usize].format.components());
+        pass.write_masks.get(at).is_none_or(|mask| mask.contains(has))
+    };
     scope.layers == 1
-        && (proven || pass.covers)
-        && (targets.any(|(target, blend)| same(target) && *blend == Blend::Replace)
+        && (proven && culled == CullMode::None || pass.covers && culled != CullMode::FrontAndBack)
+        && (targets.any(|((at, target), blend)| same(target) && *blend == Blend::Replace && all_channels(at, target))
             || passes && deep && scope.depth().is_some_and(same)
             || passes && set && scope.stencil().is_some_and(same))
 }

@@ -10,7 +10,8 @@ use crate::plan::names::ShownText;
 use crate::plan::{Access, Attachment, BindingKind, BufferAccess, Image, Pass, RenderScope};
 use crate::shader::MOST_PARTS;
 use crate::vulkan::{
-    Accesses, AddressMode, Aspects, CompareOp, Component, Dimension, ImageShape, Layout, Sampler, Shape, Stages,
+    Accesses, AddressMode, Aspects, CompareOp, Component, Dimension, ImageShape, Layout, PrimitiveTopology, Sampler,
+    Shape, Stages,
     StencilOp, name_of,
 };
 
@@ -68,6 +69,17 @@ impl<'p> Check<'_, 'p> {
         }
         if pass.blend.len() != scope.color().len() {
             self.wrong_pass(pass, "doesn't say how each colour attachment is blended");
+        }
+        if !(pass.write_masks.is_empty() || pass.write_masks.len() == scope.color().len()) {
+            self.wrong_pass(pass, "doesn't say which channels it writes of each colour attachment");
+        }
+        let own_vertices = pass.draw.is_some_and(|draw| draw.has_own_vertices() || draw.is_custom());
+        if pass.raster.topology != PrimitiveTopology::TriangleList && !own_vertices {
+            self.wrong_pass(pass, "makes something else than triangles of vertices that make triangles");
+        }
+        let second = pass.blend.iter().any(|blend| blend.takes_second_source());
+        if second && listed_colors(scope, pass) > 1 {
+            self.wrong_pass(pass, "blends with a second colour and draws into several colour attachments");
         }
         let covers = scope.samples > 1 && !scope.color().is_empty() && pass.redraws.is_none();
         if pass.alpha_to_coverage && !(covers && pass.discards) {
@@ -190,7 +202,7 @@ impl<'p> Check<'_, 'p> {
     fn outside(&mut self, pass: &'p Pass) {
         self.named(&pass.name);
         let drawn = pass.draw.is_some() || !pass.blend.is_empty() || pass.depth.is_some() || pass.stencil.is_some();
-        let drawn = drawn || pass.redraws.is_some();
+        let drawn = drawn || pass.redraws.is_some() || !pass.raster.is_usual() || !pass.write_masks.is_empty();
         let covers = pass.discards || pass.covers || pass.untouched.is_some() || pass.alpha_to_coverage;
         if drawn || covers || pass.local_barrier || pass.merged.is_some() {
             self.wrong_pass(pass, "is no draw and has the state of one");
@@ -336,6 +348,11 @@ impl<'p> Check<'_, 'p> {
             (Some(_), Some(_)) => self.wrong_pass(pass, "has several buffers for its counts or indices"),
         }
     }
+}
+
+/// How many colour attachments a pass draws into.
+fn listed_colors(scope: &RenderScope, pass: &Pass) -> usize {
+    scope.color().iter().filter(|attachment| !listed(pass, attachment).is_empty()).count()
 }
 
 /// The accesses to an attachment that a pass lists.

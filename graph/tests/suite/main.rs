@@ -28,6 +28,7 @@ mod plan_format;
 mod queue_costs;
 mod queues;
 mod random_frames;
+mod raster_states;
 mod reference;
 mod rotation;
 mod saved_profiles;

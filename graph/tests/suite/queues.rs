@@ -45,7 +45,7 @@ impl Builder {
         let draw = Draw::FullScreen;
         let mut pass = Pass::new(name, Work::Draw { draw, shader: name.into(), discards: false, per_sample: false });
         let (range, span, blend) = (Subresources::WHOLE, Span::NONE, Blend::Replace);
-        pass.color.push(ColorTarget { image: target, range, span, clear: None, blend });
+        pass.color.push(ColorTarget { image: target, range, span, clear: None, blend, write_mask: Default::default() });
         let buffers: Vec<_> = buffers.iter().map(|buffer| (*buffer, false)).collect();
         self.pass(pass, Stages::FRAGMENT_SHADER, reads, &buffers);
     }

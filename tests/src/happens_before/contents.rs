@@ -4,7 +4,7 @@ use super::uses::{self, Kind, Use};
 use super::world::{World, role};
 use framewright_graph::frame::{Blend, Draw};
 use framewright_graph::plan::{Attachment, ImageBarrier, Pass, Queue, RenderScope, Resource, Role, Side, Work};
-use framewright_graph::vulkan::{Accesses, CompareOp, Layout, LoadOp, Sharing, Stages, StoreOp};
+use framewright_graph::vulkan::{Accesses, CompareOp, CullMode, Layout, LoadOp, Sharing, Stages, StoreOp};
 use std::hash::{DefaultHasher, Hash, Hasher};
 
 /// The contents of a part; `None`: nothing that is defined.
@@ -342,13 +342,18 @@ impl Follower<'_> {
             read = read.zip(value).map(number);
         }
         let fills = pass.draw == Some(Draw::FullScreen) && !pass.discards && pass.untouched.is_none();
-        let sure = (pass.covers || fills && tested.is_none() && stencil_tested.is_none()) && scope.layers == 1;
+        // A triangle may be left out by its face, and all are with both.
+        let (faces, mode) = (pass.raster.topology.has_faces(), pass.raster.cull_mode.unwrap_or(CullMode::None));
+        let fills = fills && !(faces && mode != CullMode::None);
+        let promised = pass.covers && !(faces && mode == CullMode::FrontAndBack);
+        let sure = (promised || fills && tested.is_none() && stencil_tested.is_none()) && scope.layers == 1;
         for (location, attachment) in scope.color().iter().enumerate() {
             if !writes(pass, attachment) {
                 continue;
             }
             let replaces = pass.blend.get(location).copied().unwrap_or_default() == Blend::Replace;
-            let covers = sure && replaces && self.covers_area(scope, attachment);
+            let channels = pass.write_masks.get(location).is_none_or(|mask| mask.is_all());
+            let covers = sure && replaces && channels && self.covers_area(scope, attachment);
             if !replaces {
                 self.read(step, &of_attachment(attachment));
             }

@@ -9,7 +9,7 @@ use framewright_graph::device::{MemoryProvider, Profile};
 use framewright_graph::frame::{
     Blend, ColorTarget, Draw, Face, Frame, Image, ImageIndex, Lifetime, ParamValue, Pass, Resource, SampledImage, Work,
 };
-use framewright_graph::vulkan::{FillValue, Format, Stages, Subresources};
+use framewright_graph::vulkan::{ColorComponents, FillValue, Format, Stages, Subresources};
 
 /// Shipped shaders that tone-map an image of light, and the name by which they know it.
 const TONE_MAPPERS: [&str; 4] = ["tone_map", "tone_map_operator", "reinhard", "expose"];
@@ -143,6 +143,7 @@ fn averaged(frame: &mut Frame, at: usize, pipeline: &Pipeline) -> Option<(Pass, 
             span: pass.span,
             clear: None,
             blend: Blend::Replace,
+            write_mask: ColorComponents::RGBA,
         }],
         params: vec![(FRAMES.into(), ParamValue::Integer(1))],
         ..Pass::new(&format!("{} averages frames", pass.name), work)

@@ -65,4 +65,10 @@ room! {
     ///
     /// A feature, extension or limit of Vulkan isn't there. `framewright devices` lists the devices, and what is missing on each.
     DEVICE_LACKS = 1112,
+
+    /// The device lacks what the raster state of a pass needs.
+    ///
+    /// A bound of the depth bias, depth that is clamped, wide lines, points and blends with a second colour are features that not
+    /// every device has. The message names the feature or the limit. A `when` that asks `device` lets a pass run only where it can.
+    RASTER_NEEDS = 1113,
 }

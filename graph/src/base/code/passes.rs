@@ -107,4 +107,11 @@ room! {
     ///
     /// Within a pass nothing orders its accesses, so what it writes it accesses once: for reading and writing, or in two passes.
     USED_TWICE = 719,
+
+    /// The raster state of a pass doesn't go with what it draws.
+    ///
+    /// `topology` goes with `Vertices` and `Indirect`, whose vertex shader writes `gl_PointSize` where it makes points. A blend with
+    /// the shader's second colour needs one (`layout(location = 0, index = 1)`), and is that of the one colour target. A pass that
+    /// leaves out front and back faces covers nothing.
+    RASTER_UNFIT = 720,
 }

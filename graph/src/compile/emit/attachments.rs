@@ -55,8 +55,14 @@ fn local_passes(results: &StageResults<'_>, scope: &Scope, attachments: &[Attach
             read.clear();
         }
         let own = std::mem::take(&mut pass.blend);
-        let blend = |target: &Target| of(Role::Color).position(|drawn| drawn == *target).and_then(|at| own.get(at));
+        let at = |target: &Target| of(Role::Color).position(|drawn| drawn == *target);
+        let blend = |target: &Target| at(target).and_then(|at| own.get(at));
         pass.blend = scope.color.iter().map(|target| blend(target).copied().unwrap_or_default()).collect();
+        if !pass.write_masks.is_empty() {
+            let masks = std::mem::take(&mut pass.write_masks);
+            let mask = |target: &Target| at(target).and_then(|at| masks.get(at)).copied().unwrap_or_default();
+            pass.write_masks = scope.color.iter().map(mask).collect();
+        }
         // A scope has few attachments, but may have many passes.
         for (known, role) in [(&mut fresh, Role::Color), (&mut read, Role::Input)] {
             for target in of(role) {

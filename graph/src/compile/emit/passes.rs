@@ -3,12 +3,14 @@
 use super::stage_results::{StageResults, cause, frame_work};
 use crate::compile::adapt::has_samples;
 use crate::compile::model::{Kind, Op, OpKind, ResolveShader, Role, Use};
-use crate::frame::{Blend, DepthTarget, Draw, Groups, ParamValue, Pass as FramePass, ViewIndex, Work as FrameWork};
+use crate::frame::{
+    Blend, DepthTarget, Draw, Groups, ParamValue, Pass as FramePass, RasterState, ViewIndex, Work as FrameWork,
+};
 use crate::plan::{
     Access, Binding, BindingKind, BufferAccess, BufferId, Cause, DepthState, Fill, ImageId, Param, Pass, Side,
     Transfer, ViewId, Work,
 };
-use crate::vulkan::{CompareOp, Component, Dimension, Filter, ImageShape, ResolveMode, Sampler};
+use crate::vulkan::{ColorComponents, CompareOp, Component, Dimension, Filter, ImageShape, ResolveMode, Sampler};
 use std::sync::Arc;
 
 /// The shader that draws one image into another. Inserted passes are drawn by shipped shaders, even if there are files of
@@ -132,7 +134,7 @@ pub(super) fn pass(results: &StageResults<'_>, number: u32) -> Pass {
     let view = view(results, declared.view);
     let mut planned = Pass { view, accesses, buffers, ..bare(name, cause, draw, work.groups(), shader) };
     if work.is_draw() {
-        drawn(&mut planned, declared, uses);
+        drawn(results, &mut planned, declared, uses);
         planned.alpha_to_coverage = declared.alpha_to_coverage && has_samples(results.adapted, uses);
         planned.merged = results.scoped.merged(results.frame, results.adapted, number);
     }
@@ -161,11 +163,12 @@ fn depth_only(results: &StageResults<'_>, number: u32, declared: &FramePass, nam
     let drawn_again = declared.work.draw().map(|(draw, shader)| (Some(draw), shader));
     let (draw, shader) = drawn_again.unwrap_or((None, &results.nothing));
     let mut planned = bare(name.clone(), cause(results, op), draw, None, Arc::clone(shader));
-    drawn(&mut planned, declared, uses);
+    drawn(results, &mut planned, declared, uses);
     Pass {
         redraws: Some(declared.name.clone()),
         view: view(results, declared.view),
         blend: Vec::new(),
+        write_masks: Vec::new(),
         params: declared
             .params
             .iter()
@@ -215,16 +218,29 @@ fn weighted(mut pass: Pass) -> Pass {
 }
 
 /// Adds the state that only draws have.
-fn drawn(planned: &mut Pass, declared: &FramePass, uses: &[Use]) {
+fn drawn(results: &StageResults<'_>, planned: &mut Pass, declared: &FramePass, uses: &[Use]) {
     planned.discards = declared.work.discards();
     planned.untouched.clone_from(&declared.untouched);
     planned.covers = declared.covers;
     planned.blend = declared.color.iter().map(|target| target.blend).collect();
+    planned.write_masks = write_masks(results, declared);
+    planned.raster = declared.raster;
     let uses_plane = |role| uses.iter().any(|used| used.role == role);
     let depth = declared.depth.as_ref();
     let state = depth.map(|DepthTarget { test, write, .. }| DepthState { test: *test, write: *write });
     planned.depth = state.filter(|_| uses_plane(Role::Depth));
     planned.stencil = depth.and_then(|depth| depth.stencil).filter(|_| uses_plane(Role::Stencil));
+}
+
+/// The channels that a pass writes of each target; none if it writes all that each has.
+fn write_masks(results: &StageResults<'_>, declared: &FramePass) -> Vec<ColorComponents> {
+    let written = declared.color.iter().map(|target| {
+        let components = results.frame.images[target.image.0 as usize].format.components();
+        let whole = target.write_mask.contains(ColorComponents::first(components));
+        if whole { ColorComponents::RGBA } else { target.write_mask }
+    });
+    let written: Vec<ColorComponents> = written.collect();
+    if ColorComponents::are_all(&written) { Vec::new() } else { written }
 }
 
 /// A pass without accesses.
@@ -242,6 +258,8 @@ fn bare(name: Arc<str>, cause: Cause, draw: Option<Draw>, groups: Option<Groups>
         covers: false,
         alpha_to_coverage: false,
         blend: Vec::new(),
+        write_masks: Vec::new(),
+        raster: RasterState::default(),
         depth: None,
         stencil: None,
         params: Vec::new(),

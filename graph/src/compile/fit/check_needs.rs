@@ -1,6 +1,6 @@
 //! What shaders and states ask of the device, and how large buffers are that shaders see, against the device's features and limits.
 
-use crate::base::{Code, Diagnostic};
+use crate::base::{Code, Diagnostic, Span};
 use crate::device::{Abilities, Limit, NeedKind, Profile};
 use crate::frame::{Draw, Frame, Lifetime, Pass};
 use crate::plan::{Note, NoteKind};
@@ -21,6 +21,7 @@ pub(crate) fn check_needs(frame: &Frame, live: &[u32], device: &Profile) -> Resu
             notes.push(note(NoteKind::FirstInstance, frame, pass, text));
         }
     }
+    live.iter().for_each(|pass| raster(&frame.passes[*pass as usize], device, &mut errors));
     buffers(frame, live, device, &mut errors);
     states(frame, device, &mut errors);
     if errors.is_empty() { Ok(notes) } else { Err(errors) }
@@ -38,6 +39,33 @@ fn needs(pass: &Pass, device: &Profile, errors: &mut Vec<Diagnostic>, mut tell: 
         if let NeedKind::Unjudged(words) = &need.kind {
             tell(format!("whether {} is valid SPIR-V isn't known: {words}", need.place));
         }
+    }
+}
+
+/// Reports raster state that the device doesn't have.
+fn raster(pass: &Pass, device: &Profile, errors: &mut Vec<Diagnostic>) {
+    let mut report = |span: Span, what: String| {
+        let message = format!("pass `{}` can't be drawn on `{}`: {what}", pass.name, device.name);
+        errors.push(Diagnostic::new(Code::RASTER_NEEDS, if span == Span::NONE { pass.span } else { span }, message));
+    };
+    let missing = |(feature, what): (&str, &str)| {
+        (!device.has_feature(feature)).then(|| format!("{what} needs the feature {feature}"))
+    };
+    if !pass.raster.is_usual() {
+        let lacks: Vec<String> = pass.raster.features().filter_map(missing).collect();
+        let has_all = lacks.is_empty();
+        lacks.into_iter().for_each(|what| report(pass.raster_span, what));
+        for (limit, value, what) in pass.raster.limits() {
+            let Some(most) = device.limits.as_ref().map(|limits| limits.of(limit)) else { continue };
+            #[allow(clippy::cast_precision_loss, reason = "such limits are small")]
+            let exceeds = value > most as f32;
+            if exceeds && has_all {
+                report(pass.raster_span, format!("{what} is {value}, and {most} is allowed ({})", limit.name()));
+            }
+        }
+    }
+    for target in &pass.color {
+        target.blend.feature().and_then(missing).into_iter().for_each(|what| report(target.span, what));
     }
 }
 

@@ -141,6 +141,8 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
         storage,
         color,
         depth,
+        raster,
+        raster_span,
         alpha_to_coverage,
         covers,
         untouched,
@@ -157,6 +159,8 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
         && old.span == *span
         && old.view == *view
         && old.side_effect == *side_effect
+        && old.raster == *raster
+        && old.raster_span == *raster_span
         && old.alpha_to_coverage == *alpha_to_coverage
         && old.covers == *covers
         && old.untouched == *untouched
@@ -225,8 +229,9 @@ fn works(old: &Work, new: &Work) -> Difference {
 }
 
 fn color_target(old: &ColorTarget, new: &ColorTarget) -> Difference {
-    let ColorTarget { image, range, span, clear, blend } = new;
-    let same = (old.image, old.range, old.span, old.blend) == (*image, *range, *span, *blend);
+    let ColorTarget { image, range, span, clear, blend, write_mask } = new;
+    let same = (old.image, old.range, old.span, old.blend, old.write_mask)
+        == (*image, *range, *span, *blend, *write_mask);
     if !same || old.clear.is_some() != clear.is_some() {
         return Structure;
     }

@@ -1,8 +1,8 @@
 //! Passes of the frame: the work of each, the parts that it uses, and the inputs of its shader.
 
 use super::transfers::FilePass;
-use super::{targets, transfers, work};
-use crate::base::Diagnostic;
+use super::{raster, targets, transfers, work};
+use crate::base::{Diagnostic, Span};
 use crate::expand::resources::{Resources, fills, parts};
 use crate::expand::shader::{
     self, CheckedShaders, coverage, local, params, rotation, sampled_images, samplers, stereo, storage,
@@ -29,6 +29,7 @@ pub(in crate::expand) fn lower(
         lowered.work.set_shader(found);
     }
     work::check(resources, pass, &lowered, interface.as_ref(), errors);
+    raster::check(pass, interface.as_ref(), errors);
     transfers::draw_part(&FilePass { resources, pass }, &mut lowered, errors);
     supplied_resources::custom(shaders, pass, errors);
     if let (Some(path), Some(interface)) = (&path, &interface) {
@@ -77,6 +78,8 @@ pub(in crate::expand) fn draft(
         storage: Vec::new(),
         color: Vec::with_capacity(pass.color.len()),
         depth: None,
+        raster: pass.raster.map(|raster| raster.value).unwrap_or_default(),
+        raster_span: pass.raster.map_or(Span::NONE, |raster| raster.span),
         alpha_to_coverage: pass.alpha_to_coverage.is_some(),
         covers: pass.covers,
         untouched: coverage::untouched(pass, interface),
@@ -103,6 +106,7 @@ pub(in crate::expand) fn draft(
             span: target.part.image.span,
             clear: target.clear.map(|clear| clear.map(|number| number.value)),
             blend: target.blend.value,
+            write_mask: target.write_mask,
         });
     }
     lowered.depth = pass.depth.as_ref().map(|target| DepthTarget {

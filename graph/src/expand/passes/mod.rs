@@ -8,6 +8,7 @@
 pub(super) mod casters;
 pub(super) mod depth_only;
 mod lower;
+mod raster;
 mod state;
 pub(super) mod targets;
 mod transfers;

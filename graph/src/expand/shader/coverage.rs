@@ -16,6 +16,8 @@ pub(in crate::expand) fn untouched(pass: &language::Pass, interface: Option<&Sha
     let why = if leaves_out(interface) {
         let what = if interface.discards { "discards fragments" } else { "writes `gl_SampleMask`" };
         format!("shader `{name}` {what}{}", at(interface.leaves_out_at.as_deref()))
+    } else if let Some(raster) = pass.raster.filter(|raster| raster.value.culls()) {
+        format!("{} may leave its triangle out", raster.value)
     } else if pass.alpha_to_coverage.is_some() {
         "its alpha says which samples are covered".to_owned()
     } else if let Some(file) = &interface.own_vertices {

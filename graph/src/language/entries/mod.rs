@@ -21,6 +21,7 @@ pub(crate) mod passes;
 pub(crate) mod pipeline;
 pub(crate) mod precision;
 pub(crate) mod presets;
+mod raster;
 pub(crate) mod repeat;
 pub(crate) mod resolves;
 pub(crate) mod settings;

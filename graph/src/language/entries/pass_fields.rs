@@ -3,7 +3,7 @@
 use super::condition::CONDITION;
 use super::repeat::REPEAT;
 use super::stand_ins::OTHERWISE;
-use super::{bindings, dispatch, draw, parts, shader, targets, transfer, views};
+use super::{bindings, dispatch, draw, parts, raster, shader, targets, transfer, views};
 use crate::fields;
 use crate::ron::{Leaf, PlainForm};
 
@@ -51,6 +51,8 @@ fields! {
         pub(crate) color: Option<Leaf<'src>> => targets::COLOR,
         /// The target for depth and stencil.
         pub(crate) depth: Option<Leaf<'src>> => targets::DEPTH,
+        /// How triangles, lines and points become fragments.
+        pub(crate) raster: Option<Leaf<'src>> => raster::RASTER,
         /// `true`: the alpha that the shader writes at location 0 tells how many samples of a texel are covered, where its
         /// targets have several; not if left out.
         pub(crate) alpha_to_coverage: Option<Leaf<'src>> => Form::Truth,

@@ -68,14 +68,20 @@ impl Context<'_> {
         let index = optional(fields.index, |leaf| self.buffer_part(leaf));
         let color = optional(fields.color, |leaf| self.color_targets(leaf));
         let depth = optional(fields.depth, |leaf| self.depth_target(leaf));
+        let raster = optional(fields.raster, |leaf| self.raster(leaf));
         let alpha_to_coverage = optional(fields.alpha_to_coverage, |leaf| self.truth(leaf));
         let covers = optional(fields.covers, |leaf| self.truth(leaf).map(FieldValue::alone));
         let params = optional(fields.params, |leaf| self.params(leaf));
         let side_effect = optional(fields.side_effect, |leaf| self.truth(leaf).map(FieldValue::alone));
         let (draws, span) = (fields.draw.is_some(), fields.name.span());
         let bindings = (ReadableValue(sample), ReadableValue(storage), ReadableValue(uniform), ReadableValue(params));
-        let targets =
-            (ReadableValue(color), ReadableValue(depth), ReadableValue(alpha_to_coverage), ReadableValue(covers));
+        let targets = (
+            ReadableValue(color),
+            ReadableValue(depth),
+            ReadableValue(raster),
+            ReadableValue(alpha_to_coverage),
+            ReadableValue(covers),
+        );
         let parts = (
             ReadableValue(work),
             bindings,
@@ -85,7 +91,7 @@ impl Context<'_> {
         );
         reported(self.reader, parts, move |reader, (work, bindings, (vertex, index), targets, side_effect)| {
             let (sample, storage, uniform, params) = bindings;
-            let (color, depth, alpha_to_coverage, covers) = targets;
+            let (color, depth, raster, alpha_to_coverage, covers) = targets;
             if let (Some(color), Some(depth)) = (&color, &depth) {
                 let (draws, color) = (draws.then_some(span), color.as_deref().unwrap_or(&[]));
                 targets_make_sense(reader, draws, PassWords(name.as_ref()), color, depth.as_ref());
@@ -104,6 +110,7 @@ impl Context<'_> {
                 index: index?,
                 color: color?.unwrap_or_default(),
                 depth: depth?,
+                raster: raster?,
                 alpha_to_coverage: alpha_to_coverage?.filter(|covers| covers.value).map(|covers| covers.span),
                 covers: covers?.unwrap_or_default(),
                 params: params?.unwrap_or_default(),

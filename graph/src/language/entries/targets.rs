@@ -1,6 +1,7 @@
 //! `color` and `depth`: the targets of a pass, with their clears, blends and tests.
 
 use super::parts::{self, PartSelection};
+use super::raster;
 use super::values::{self, at, optional};
 use crate::base::{Code, Diagnostic};
 use crate::fields;
@@ -8,7 +9,7 @@ use crate::frame::{Blend, StencilState};
 use crate::language::model::{Color, Depth};
 use crate::language::scope::{Context, FieldValue, all, combined};
 use crate::ron::{FieldTable, Form, Leaf, Shape, Spanned, names};
-use crate::vulkan::{CompareOp, StencilOp};
+use crate::vulkan::{ColorComponents, CompareOp, StencilOp};
 
 fields! {
     /// A colour target: an image that a pass draws colour into.
@@ -28,7 +29,9 @@ fields! {
         /// whole numbers where it holds integers.
         clear: Option<Leaf<'src>> => values::COLOR,
         /// The blend of new colour with old; `Replace` if left out.
-        blend: Option<Leaf<'src>> => Form::Choice("a blend", || names(&BLENDS)),
+        blend: Option<Leaf<'src>> => raster::BLEND,
+        /// The channels that are written, red, green, blue and alpha; all if left out. The others keep what they held.
+        write_mask: Option<Leaf<'src>> => Form::Tuple(&[Form::Truth, Form::Truth, Form::Truth, Form::Truth]),
     }
 }
 
@@ -85,13 +88,6 @@ pub(crate) const TEST: Form = Form::Choice("a comparison", || names(&TESTS));
 
 const BYTE: Form = Form::Whole(0, 255);
 
-const BLENDS: [(&str, Blend); 4] = [
-    ("Replace", Blend::Replace),
-    ("Alpha", Blend::Alpha),
-    ("Premultiplied", Blend::Premultiplied),
-    ("Additive", Blend::Additive),
-];
-
 pub(crate) static TESTS: [(&str, CompareOp); 8] = [
     ("Never", CompareOp::Never),
     ("Less", CompareOp::Less),
@@ -125,7 +121,8 @@ impl Context<'_> {
         let replace = leaf.spanned(Blend::Replace);
         match leaf.shape() {
             Shape::Text | Shape::Word(..) => {
-                Some(self.image_part(leaf)?.map(move |part| Color { part, clear: None, blend: replace }))
+                let write_mask = ColorComponents::RGBA;
+                Some(self.image_part(leaf)?.map(move |part| Color { part, clear: None, blend: replace, write_mask }))
             }
             Shape::Parentheses => {
                 let fields: ColorTargetFields<'_> = self.reader.read(leaf, "a colour target")?;
@@ -133,9 +130,16 @@ impl Context<'_> {
                 let part =
                     self.selected_image(fields.image, PartSelection { mip, layer, layers, ..PartSelection::default() });
                 let clear = optional(fields.clear, |clear| self.clear_color(clear));
-                let blend = values::optional_choice(self.reader, fields.blend, "a blend", &BLENDS);
-                let blend = blend?.unwrap_or(replace);
-                Some(combined((part?, clear?), move |(part, clear)| Color { part, clear, blend }))
+                let blend = match fields.blend {
+                    Some(leaf) => self.blend(leaf),
+                    None => Some(FieldValue::Constant(replace)),
+                };
+                let write_mask = match fields.write_mask {
+                    Some(leaf) => self.write_mask(leaf),
+                    None => Some(FieldValue::Constant(ColorComponents::RGBA)),
+                };
+                let parts = (part?, clear?, blend?, write_mask?);
+                Some(combined(parts, |(part, clear, blend, write_mask)| Color { part, clear, blend, write_mask }))
             }
             _ => {
                 self.reader.expected(

@@ -9,7 +9,7 @@ use crate::ron::{Reader, Shape};
 use std::fmt::Display;
 
 /// Fields of a pass that have a meaning beside some kinds of work alone.
-pub(crate) const GOES_WITH: [(&str, &[&str]); 14] = [
+pub(crate) const GOES_WITH: [(&str, &[&str]); 15] = [
     ("shader", &["draw"]),
     ("groups", &["dispatch"]),
     ("sample", &["draw", "dispatch", "custom"]),
@@ -20,6 +20,7 @@ pub(crate) const GOES_WITH: [(&str, &[&str]); 14] = [
     ("index", &["draw"]),
     ("color", &["draw", "custom"]),
     ("depth", &["draw", "custom"]),
+    ("raster", &["draw", "custom"]),
     ("alpha_to_coverage", &["draw"]),
     ("covers", &["draw", "custom"]),
     ("reads", &["custom"]),
@@ -98,6 +99,7 @@ fn fits(reader: &mut Reader, fields: &PassFields<'_>, what: impl Display, word: 
         fields.index,
         fields.color,
         fields.depth,
+        fields.raster,
         fields.alpha_to_coverage,
         fields.covers,
         fields.reads,

@@ -5,9 +5,9 @@ use super::part::{BufferPart, ImagePart, Part};
 use super::references::ImageRef;
 use super::resources::Fill;
 use crate::base::Span;
-use crate::frame::{Blend, Draw, ParamValue, StencilState, ViewIndex};
+use crate::frame::{Blend, Draw, ParamValue, RasterState, StencilState, ViewIndex};
 use crate::ron::{Name, Spanned};
-use crate::vulkan::{AddressMode, CompareOp, Filter};
+use crate::vulkan::{AddressMode, ColorComponents, CompareOp, Filter};
 use std::sync::Arc;
 
 /// A pass.
@@ -37,6 +37,8 @@ pub struct Pass {
     pub color: Vec<Color>,
     /// Depth (and stencil) target.
     pub depth: Option<Depth>,
+    /// How its primitives become fragments, if the file says anything of it.
+    pub raster: Option<Spanned<RasterState>>,
     /// The place of `alpha_to_coverage`, if it is on: the alpha of the first colour tells how many samples are covered.
     pub alpha_to_coverage: Option<Span>,
     /// Whether the file promises that it sets every texel of its targets.
@@ -322,6 +324,8 @@ pub struct Color {
     pub clear: Option<[Spanned<f64>; 4]>,
     /// The blend of new colour with old.
     pub blend: Spanned<Blend>,
+    /// The channels that are written.
+    pub write_mask: ColorComponents,
 }
 
 /// A depth target.
@@ -447,6 +451,7 @@ impl Pass {
             index: None,
             color: Vec::new(),
             depth: None,
+            raster: None,
             alpha_to_coverage: None,
             covers: false,
             params: Vec::new(),

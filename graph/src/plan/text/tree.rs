@@ -239,14 +239,14 @@ impl<'p> Text<'p> {
         if pass.alpha_to_coverage {
             text += ", alpha to coverage";
         }
-        for (color, blend) in pass.blend.iter().enumerate() {
-            let words = match blend {
-                Blend::Replace => continue,
-                Blend::Alpha => "alpha",
-                Blend::Premultiplied => "premultiplied",
-                Blend::Additive => "additive",
-            };
-            text += &format!(", blends color {color} {words}");
+        for (color, blend) in pass.blend.iter().enumerate().filter(|(_, blend)| **blend != Blend::Replace) {
+            text += &format!(", blends color {color} {blend}");
+        }
+        for (color, mask) in pass.write_masks.iter().enumerate().filter(|(_, mask)| !mask.is_all()) {
+            text += &format!(", writes {} of color {color}", name_of(mask));
+        }
+        if !pass.raster.is_usual() {
+            text += &format!(", {}", pass.raster);
         }
         if let Some(depth) = &pass.depth {
             text += &format!(", depth {}{}", name_of(&depth.test), if depth.write { " and written" } else { "" });

@@ -67,6 +67,9 @@ pub(crate) fn whole(form: &str, example: &str) -> String {
         "Storage" => draw(&format!("color: [\"target\"], storage: {{\"source\": {example}}}")),
         "Stages" => pass(&format!("draw: Vertices(3), shader: {example}, color: [\"target\"]")),
         "ColorTarget" => draw(&format!("color: [{example}]")),
+        "Blend" => draw(&format!("color: [(image: \"target\", blend: {example})]")),
+        "Raster" => draw(&format!("color: [\"target\"], raster: {example}")),
+        "DepthBias" => draw(&format!("color: [\"target\"], raster: (depth_bias: {example})")),
         "DepthTarget" => draw(&format!("depth: {example}")),
         "Stencil" => draw(&format!("depth: (image: \"depth\", stencil: {example})")),
         "State" => with(

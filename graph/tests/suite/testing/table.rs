@@ -434,6 +434,8 @@ impl ShaderInterfaces for Table {
                 leaves_out_at: Some("masks.frag:4".to_owned()),
                 ..full_screen(vec![])
             },
+            "second" => ShaderInterface { second_source: true, ..full_screen(vec![]) },
+            "points" => ShaderInterface { point_size: true, ..full_screen(vec![]) },
             "part" => ShaderInterface { own_vertices: Some("part.vert".to_owned()), ..full_screen(vec![]) },
             "forgets" => ShaderInterface { unset: vec![unset(false)], ..full_screen(vec![]) },
             "never_sets" => ShaderInterface { unset: vec![unset(true)], ..full_screen(vec![]) },

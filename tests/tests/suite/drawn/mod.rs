@@ -37,6 +37,7 @@ mod overlay;
 mod params;
 mod peak_radiance;
 mod point_lights;
+mod raster_states;
 mod resolves;
 mod rotation;
 mod saved_profiles;

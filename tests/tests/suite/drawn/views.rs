@@ -53,7 +53,7 @@ fn frame(views: &[Option<&str>]) -> Frame {
             let work = Work::Draw { draw, shader: "lit".into(), discards: false, per_sample: false };
             let mut pass = Pass { view: index, ..Pass::new(&format!("{list:?} of {name}"), work) };
             let clear = clears.then_some([0.0, 0.0, 0.0, 1.0]);
-            pass.color.push(ColorTarget { image: first, range, span, clear, blend });
+            pass.color.push(ColorTarget { image: first, range, span, clear, blend, write_mask: Default::default() });
             let (clear, test, image) = (clears.then_some(0.0), CompareOp::GreaterOrEqual, ImageIndex(first.0 + 1));
             pass.depth = Some(DepthTarget { image, range, span, clear, test, write: clears, stencil: None });
             frame.passes.push(pass);

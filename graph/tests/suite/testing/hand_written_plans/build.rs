@@ -2,7 +2,7 @@
 
 use super::lifetime;
 use framewright_graph::base::Place;
-use framewright_graph::frame::{Blend, BufferRole, Draw, Groups, Stereo};
+use framewright_graph::frame::{Blend, BufferRole, Draw, Groups, RasterState, Stereo};
 use framewright_graph::plan::*;
 use framewright_graph::vulkan::{
     self, Accesses, BufferUsage, Filter, Format, Layout, LoadOp, Rotation, Sampler, Shape, Sharing, Stages, StoreOp,
@@ -154,6 +154,8 @@ pub(crate) fn draw(
         untouched: None,
         covers: false,
         blend: blend.to_vec(),
+        write_masks: Vec::new(),
+        raster: RasterState::default(),
         depth,
         stencil: None,
         params: Vec::new(),
