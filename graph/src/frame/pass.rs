@@ -1,6 +1,6 @@
 //! Passes of a frame, and their work.
 
-use super::{BufferUse, ColorTarget, DepthTarget, ParamValue, SampledImage, Storage, TransferUse, ViewIndex, Work};
+use super::{BufferUse, ColorTarget, DeclaredUse, DepthTarget, ParamValue, SampledImage, Storage, TransferUse, ViewIndex, Work};
 use crate::base::Span;
 use crate::device::Need;
 use std::sync::Arc;
@@ -43,6 +43,8 @@ pub struct Pass {
     pub buffers: Vec<BufferUse>,
     /// Images and buffers that a copy, blit, fill or custom pass reads and writes by transfer: source before target.
     pub transfers: Vec<TransferUse>,
+    /// How the commands of a custom pass use what it names. What isn't declared is used by any commands.
+    pub uses: Vec<DeclaredUse>,
     /// Whether it has an effect that no image or buffer shows: it is never culled.
     pub side_effect: bool,
     /// Values for the shader's parameter block, by member name.
@@ -71,6 +73,7 @@ impl Pass {
             inserted: None,
             buffers: Vec::new(),
             transfers: Vec::new(),
+            uses: Vec::new(),
             side_effect: false,
             params: Vec::new(),
         }

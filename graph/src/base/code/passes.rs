@@ -107,4 +107,11 @@ room! {
     ///
     /// Within a pass nothing orders its accesses, so what it writes it accesses once: for reading and writing, or in two passes.
     USED_TWICE = 719,
+
+    /// A custom pass can't use something as it declares.
+    ///
+    /// `uses` says by which stages and accesses, and in which layout, the program touches what the pass names in `reads`,
+    /// `writes`, `sample`, `storage` or `uniform`. Each access happens in one of the stages and in the layout; the pass names all of what
+    /// is declared, reads what is read, and writes what is written. What isn't declared is waited for by all commands.
+    USE_UNFIT = 720,
 }

@@ -150,6 +150,7 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
         inserted,
         buffers,
         transfers,
+        uses,
         side_effect,
         params,
     } = new;
@@ -167,6 +168,7 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
         && same_lists(&old.storage, storage, same_storage)
         && old.buffers == *buffers
         && old.transfers == *transfers
+        && old.uses == *uses
         && old.needs == *needs;
     if !same {
         return Structure;

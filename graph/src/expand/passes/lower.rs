@@ -86,6 +86,7 @@ pub(in crate::expand) fn draft(
         inserted: None,
         buffers: Vec::new(),
         transfers: Vec::new(),
+        uses: Vec::new(),
         side_effect: pass.side_effect,
         params: Vec::new(),
     };
