@@ -1,6 +1,8 @@
 //! Passes of a frame, and their work.
 
-use super::{BufferUse, ColorTarget, DeclaredUse, DepthTarget, ParamValue, SampledImage, Storage, TransferUse, ViewIndex, Work};
+use super::{
+    BufferUse, ColorTarget, DeclaredUse, DepthTarget, ParamValue, SampledImage, Storage, TransferUse, ViewIndex, Work,
+};
 use crate::base::Span;
 use crate::device::Need;
 use std::sync::Arc;

@@ -252,6 +252,9 @@ pub struct Access {
     pub layout: Layout,
     /// The shader's name for it; `None` for attachments and for images that a custom pass transfers.
     pub binding: Option<Binding>,
+    /// Whether a custom pass declares these stages, accesses and this layout. Else what the program records is any command.
+    #[serde(default, skip_serializing_if = "is_not")]
+    pub declared: bool,
 }
 
 /// One access to a buffer.
@@ -268,6 +271,14 @@ pub struct BufferAccess {
     pub accesses: Accesses,
     /// The shader's name for it, if it has one.
     pub binding: Option<Arc<str>>,
+    /// Whether a custom pass declares these stages and accesses. Else what the program records is any command.
+    #[serde(default, skip_serializing_if = "is_not")]
+    pub declared: bool,
+}
+
+/// Whether something isn't so: then the JSON form leaves it out.
+fn is_not(so: &bool) -> bool {
+    !so
 }
 
 /// A copy, blit or resolve.

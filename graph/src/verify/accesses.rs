@@ -270,7 +270,7 @@ fn replaces(scope: &RenderScope, pass: &Pass, access: &plan::Access) -> bool {
             || passes && set && scope.stencil().is_some_and(same))
 }
 
-fn buffer_usage(accesses: Accesses) -> BufferUsage {
+pub(super) fn buffer_usage(accesses: Accesses) -> BufferUsage {
     let storage = Accesses::SHADER_STORAGE_READ | Accesses::SHADER_STORAGE_WRITE;
     [
         (Accesses::UNIFORM_READ, BufferUsage::UNIFORM_BUFFER),

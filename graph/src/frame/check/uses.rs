@@ -109,7 +109,8 @@ impl Check<'_> {
         }
         let other = earlier.iter().find(|other| other.is_of(access) && other.meets(touched, image));
         if let Some(other) = other {
-            let wrong = self.wrong(format!("two uses are of one part of `{name}`"), "make them one, with all stages and accesses");
+            let wrong = self
+                .wrong(format!("two uses are of one part of `{name}`"), "make them one, with all stages and accesses");
             return Some(wrong.remark("again here").label(other.span, "first here"));
         }
         let accesses = declared.state.accesses;
@@ -143,7 +144,9 @@ impl Check<'_> {
         let foreign = stages - DRAWN;
         if drawn && !foreign.is_empty() {
             let message = format!("the pass draws within a rendering scope, where no {} is", words(foreign));
-            return Some(self.wrong(message, "stages of draws are possible there: VERTEX_SHADER, FRAGMENT_SHADER and others"));
+            return Some(
+                self.wrong(message, "stages of draws are possible there: VERTEX_SHADER, FRAGMENT_SHADER and others"),
+            );
         }
         for access in accesses.iter() {
             if !stages.intersects(access.stages() | Stages::ALL_COMMANDS) {
@@ -175,7 +178,8 @@ impl Check<'_> {
         let shown = name_of(&layout);
         let planes = image.part(declared.range).aspects;
         if !layout.is_of_planes(planes, image.format.aspects()) {
-            let message = format!("{} of `{name}` ({}) can't be used in the layout {shown}", name_of(&planes), image.format);
+            let message =
+                format!("{} of `{name}` ({}) can't be used in the layout {shown}", name_of(&planes), image.format);
             let help = if image.format.aspects().bits().count_ones() > 1 {
                 "depth and stencil have a layout each: declare a use of each `plane`, or one in GENERAL"
             } else {

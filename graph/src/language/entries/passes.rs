@@ -70,6 +70,7 @@ impl Context<'_> {
         let depth = optional(fields.depth, |leaf| self.depth_target(leaf));
         let alpha_to_coverage = optional(fields.alpha_to_coverage, |leaf| self.truth(leaf));
         let covers = optional(fields.covers, |leaf| self.truth(leaf).map(FieldValue::alone));
+        let uses = optional(fields.uses, |leaf| self.declared_uses(leaf));
         let params = optional(fields.params, |leaf| self.params(leaf));
         let side_effect = optional(fields.side_effect, |leaf| self.truth(leaf).map(FieldValue::alone));
         let (draws, span) = (fields.draw.is_some(), fields.name.span());
@@ -81,9 +82,9 @@ impl Context<'_> {
             bindings,
             (ReadableValue(vertex), ReadableValue(index)),
             targets,
-            ReadableValue(side_effect),
+            (ReadableValue(side_effect), ReadableValue(uses)),
         );
-        reported(self.reader, parts, move |reader, (work, bindings, (vertex, index), targets, side_effect)| {
+        reported(self.reader, parts, move |reader, (work, bindings, (vertex, index), targets, (side_effect, uses))| {
             let (sample, storage, uniform, params) = bindings;
             let (color, depth, alpha_to_coverage, covers) = targets;
             if let (Some(color), Some(depth)) = (&color, &depth) {
@@ -106,6 +107,7 @@ impl Context<'_> {
                 depth: depth?,
                 alpha_to_coverage: alpha_to_coverage?.filter(|covers| covers.value).map(|covers| covers.span),
                 covers: covers?.unwrap_or_default(),
+                uses: uses?.unwrap_or_default(),
                 params: params?.unwrap_or_default(),
                 side_effect: side_effect?.unwrap_or_default(),
                 otherwise: Vec::new(),
