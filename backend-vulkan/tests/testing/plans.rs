@@ -200,6 +200,7 @@ fn access(image: ImageId, state: State) -> Access {
         accesses: state.accesses,
         layout: state.layout,
         binding: None,
+        declared: false,
     }
 }
 
