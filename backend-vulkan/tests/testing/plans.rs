@@ -224,6 +224,7 @@ fn pass(name: &str, shader: &str, draw: Draw, target: ImageId) -> Pass {
         accesses: vec![access(target, State { accesses: Accesses::COLOR_ATTACHMENT_WRITE, ..DRAWN })],
         buffers: Vec::new(),
         local_barrier: false,
+        any_queue: false,
         merged: None,
     }
 }

@@ -47,6 +47,8 @@ pub struct Pass {
     pub transfers: Vec<TransferUse>,
     /// How the commands of a custom pass use what it names. What isn't declared is used by any commands.
     pub uses: Vec<DeclaredUse>,
+    /// Whether a custom pass that declares how it uses all that it names may be recorded for a queue for compute.
+    pub any_queue: bool,
     /// Whether it has an effect that no image or buffer shows: it is never culled.
     pub side_effect: bool,
     /// Values for the shader's parameter block, by member name.
@@ -76,6 +78,7 @@ impl Pass {
             buffers: Vec::new(),
             transfers: Vec::new(),
             uses: Vec::new(),
+            any_queue: false,
             side_effect: false,
             params: Vec::new(),
         }

@@ -169,6 +169,9 @@ pub struct Pass {
     /// include earlier and later stages of the pipeline, so colour that they read at their own position is read by then, and
     /// may be drawn over.
     pub local_barrier: bool,
+    /// Whether the program agrees to record it for another queue than that for graphics.
+    #[serde(default, skip_serializing_if = "is_not")]
+    pub any_queue: bool,
     /// Why it shares its scope with the pass before it. Boxed, since few passes do.
     pub merged: Option<Box<Reason>>,
 }

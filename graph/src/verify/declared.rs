@@ -10,7 +10,7 @@ use super::passes::CommandSource;
 use super::structure::is_of_file;
 use super::work::{Check, is_read_only, is_written};
 use crate::frame::BufferRole;
-use crate::plan::{Access, BindingKind, BufferAccess};
+use crate::plan::{Access, BindingKind, BufferAccess, Pass, Queue};
 use crate::vulkan::{Accesses, Layout, Stages, name_of};
 
 /// Accesses that are no command's, or say nothing of what it does.
@@ -87,6 +87,17 @@ impl Check<'_, '_> {
         let writes = access.role.is_none_or(BufferRole::writes);
         if !writes && !accesses.writes().is_empty() {
             self.found.structure(Some(self.id), resource, "is read by its pass, and declared to be written");
+        }
+    }
+
+    /// What a program records stays on the queue for graphics, unless it agrees to another one for compute and declares all that it does.
+    pub(super) fn queue_of_program(&mut self, pass: &Pass) {
+        let declared = pass.accesses.iter().all(|it| it.declared) && pass.buffers.iter().all(|it| it.declared);
+        let agreed = self.queue == Queue::Compute && pass.any_queue && declared;
+        if self.queue != Queue::Graphics && !agreed {
+            let what =
+                format!("is recorded by the program on {}, and doesn't say that it can be", name_of(&self.queue));
+            self.wrong_pass(pass, &what);
         }
     }
 

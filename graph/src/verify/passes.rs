@@ -185,6 +185,7 @@ impl<'p> Check<'_, 'p> {
         if pass.groups.is_some() {
             self.wrong_pass(pass, "is recorded by the program and has workgroups");
         }
+        self.queue_of_program(pass);
         let possible = possible(self.queue) & Stages::ALL_COMMANDS;
         let by = CommandSource::Program { draws: false };
         for access in &pass.accesses {

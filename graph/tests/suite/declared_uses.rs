@@ -1,12 +1,14 @@
 //! Custom passes that declare what they do: the Plan waits for that alone, and what can't be is refused (DO-8).
 
+use crate::testing::parts;
 use crate::testing::pipelines::{INPUTS, right, wrong};
-use crate::testing::plans::{compiled, image, refused};
+use crate::testing::plans::{compiled, image, on, refused};
+use framewright_graph::device::{Profile, Queues};
 use framewright_graph::expand::Inputs;
 use framewright_graph::frame::{DeclaredUse, Eye, ImageIndex, Pass, Resource, Stereo, Work};
-use framewright_graph::plan::{self, Plan, Step};
+use framewright_graph::plan::{self, Plan, Queue, Step};
 use framewright_graph::verify::verify;
-use framewright_graph::vulkan::{Accesses, BufferUsage, Layout, Stages, State, Usage};
+use framewright_graph::vulkan::{Accesses, BufferUsage, Layout, Sharing, Stages, State, Usage};
 
 /// A pipeline whose pass `build` is custom: what it names and declares is `fields`.
 fn text(fields: &str) -> String {
@@ -52,7 +54,9 @@ fn what_is_declared_is_all_that_is_waited_for() {
     assert!(access.declared && access.binding.is_none());
     let state = (access.stages, access.accesses, access.layout);
     assert_eq!(state, (Stages::COMPUTE_SHADER, Accesses::SHADER_STORAGE_WRITE, Layout::General));
-    let [barrier] = &step(&plan, "build").image_barriers[..] else { panic!("{}", plan.tree()) };
+    let mask = image(&plan, "mask").id;
+    let barriers = &step(&plan, "build").image_barriers;
+    let barrier = barriers.iter().find(|it| it.image == mask).unwrap_or_else(|| panic!("{}", plan.tree()));
     assert_eq!(barrier.new_layout, Layout::General);
     assert_eq!((barrier.dst_stages, barrier.dst_accesses), (Stages::COMPUTE_SHADER, Accesses::SHADER_STORAGE_WRITE));
     // The flags follow from the accesses: nothing is transferred.
@@ -328,4 +332,65 @@ fn verify_holds_plans_to_what_is_declared() {
     let mut unused = plan;
     unused.images.iter_mut().filter(|it| &*it.name == "kept").for_each(|it| it.usage -= Usage::STORAGE);
     assert!(!verify(&unused).is_empty(), "the usage follows the accesses");
+}
+
+/// A pipeline in which `bins` could run beside `paint`: it reads and writes what `uses` declares.
+fn beside(fields: &str) -> String {
+    format!(
+        r#"Pipeline(version: 1, images: [
+            (name: "screen", format: R16G16B16A16_SFLOAT, size: Output),
+            (name: "color", format: R16G16B16A16_SFLOAT, size: Output)],
+         buffers: [(name: "seed", bytes: 262144), (name: "list", bytes: 262144), (name: "own", bytes: 262144)],
+         passes: [(name: "first", fill: (to: "seed", value: 1)),
+            (name: "bins", custom: "bins", reads: ["seed"], writes: ["list"]{fields}),
+            (name: "paint", draw: FullScreen("plain"), color: ["color"]),
+            (name: "show", draw: FullScreen("reinhard"), sample: {{"source": "color"}}, color: ["screen"]),
+            (name: "take", copy: (from: "list", to: "own"))],
+         outputs: ["screen", "own"])"#
+    )
+}
+
+const BINS: &str = r#", queue: Any, uses: [
+    (buffer: "seed", stages: [COMPUTE_SHADER], accesses: [SHADER_STORAGE_READ]),
+    (buffer: "list", stages: [COMPUTE_SHADER], accesses: [SHADER_STORAGE_WRITE])]"#;
+
+#[test]
+fn any_queue_may_run_what_declares_all_that_it_does() {
+    let queues = Queues { compute: true, transfer: false, sharing: Sharing::Concurrent, wait_bytes: 0 };
+    let device = Profile { queues, ..parts::device() };
+    let planned = |text: &str| {
+        let plan = on(&right(text, &INPUTS), &device).unwrap_or_else(|errors| panic!("{errors:?}"));
+        let (queue, any) = (step(&plan, "bins").queue, custom(&plan, "bins").any_queue);
+        (plan, queue, any)
+    };
+    let (plan, queue, any) = planned(&beside(BINS));
+    assert_eq!((queue, any), (Queue::Compute, true), "{}", plan.tree());
+    // Without the word, or without a use of everything, the program has the queue for graphics.
+    assert_eq!(planned(&beside(&BINS.replace("queue: Any, ", ""))).1, Queue::Graphics);
+    assert_eq!(planned(&beside("")).1, Queue::Graphics);
+    // Stages that no queue for compute has keep it there.
+    let drawn = BINS
+        .replace("COMPUTE_SHADER], accesses: [SHADER_STORAGE_READ", "VERTEX_SHADER], accesses: [SHADER_STORAGE_READ");
+    assert_eq!(planned(&beside(&drawn)).1, Queue::Graphics);
+    let half = wrong(
+        &beside(&BINS.replace("(buffer: \"seed\", stages: [COMPUTE_SHADER], accesses: [SHADER_STORAGE_READ]),", "")),
+        &INPUTS,
+    );
+    assert!(half.contains("any queue may run the pass, and nothing says how it uses `seed`"), "{half}");
+    assert!(half.contains("test.ron:6:"), "{half}");
+    let scope = mistakes(r#"color: ["kept"], queue: Any"#);
+    assert!(scope.contains("draws within a rendering scope"), "{scope}");
+
+    // Verify holds Plans to it.
+    let said = |change: fn(&mut plan::Pass)| {
+        let mut plan = plan.clone();
+        plan.steps
+            .iter_mut()
+            .flat_map(|step| step.work.passes_mut())
+            .filter(|pass| &*pass.name == "bins")
+            .for_each(change);
+        verify(&plan).iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+    };
+    assert!(said(|pass| pass.any_queue = false).contains("doesn't say that it can be"));
+    assert!(said(|pass| pass.buffers[0].declared = false).contains("doesn't say that it can be"));
 }

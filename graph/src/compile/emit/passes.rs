@@ -134,6 +134,7 @@ pub(super) fn pass(results: &StageResults<'_>, number: u32) -> Pass {
     }
     let view = view(results, declared.view);
     let mut planned = Pass { view, accesses, buffers, ..bare(name, cause, draw, work.groups(), shader) };
+    planned.any_queue = declared.any_queue;
     if work.is_draw() {
         drawn(&mut planned, declared, uses);
         planned.alpha_to_coverage = declared.alpha_to_coverage && has_samples(results.adapted, uses);
@@ -251,6 +252,7 @@ fn bare(name: Arc<str>, cause: Cause, draw: Option<Draw>, groups: Option<Groups>
         accesses: Vec::new(),
         buffers: Vec::new(),
         local_barrier: false,
+        any_queue: false,
         merged: None,
     }
 }

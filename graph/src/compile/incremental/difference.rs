@@ -151,6 +151,7 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
         buffers,
         transfers,
         uses,
+        any_queue,
         side_effect,
         params,
     } = new;
@@ -169,6 +170,7 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
         && old.buffers == *buffers
         && old.transfers == *transfers
         && old.uses == *uses
+        && old.any_queue == *any_queue
         && old.needs == *needs;
     if !same {
         return Structure;

@@ -186,7 +186,7 @@ impl Check<'_> {
 
     /// Declared uses are of what the pass names, and can be.
     pub(super) fn uses(&mut self) {
-        if !self.pass.uses.is_empty() {
+        if !self.pass.uses.is_empty() || self.pass.any_queue {
             let mut wrong = Vec::new();
             check::uses::check(self.frame, self.pass, &mut wrong);
             self.within(wrong);

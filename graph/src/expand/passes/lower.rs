@@ -87,6 +87,7 @@ pub(in crate::expand) fn draft(
         buffers: Vec::new(),
         transfers: Vec::new(),
         uses: Vec::new(),
+        any_queue: pass.any_queue,
         side_effect: pass.side_effect,
         params: Vec::new(),
     };

@@ -19,12 +19,19 @@ const DRAWN: Stages = Stages::VERTEX_SHADER
 
 /// Reports what is wrong with the uses that a pass declares.
 pub(crate) fn check(checked: &impl CheckContext, pass: &Pass, errors: &mut Vec<Diagnostic>) {
+    if pass.uses.is_empty() && !pass.any_queue {
+        return;
+    }
+    if !pass.is_custom() {
+        let span = pass.uses.first().map_or(pass.span, |declared| declared.span);
+        let message = "it says how a program's commands use what it names, and no program records it";
+        errors.push(Diagnostic::new(Code::USE_UNFIT, span, message));
+        return;
+    }
+    if pass.any_queue {
+        queue(checked, pass, errors);
+    }
     for (at, declared) in pass.uses.iter().enumerate() {
-        if !pass.is_custom() {
-            let message = "it declares uses, and no program records it";
-            errors.push(Diagnostic::new(Code::USE_UNFIT, declared.span, message));
-            return;
-        }
         let (name, image) = match declared.resource {
             Resource::Image(index) => match checked.image(index) {
                 Some(image) => (&*image.name, Some(image)),
@@ -37,6 +44,37 @@ pub(crate) fn check(checked: &impl CheckContext, pass: &Pass, errors: &mut Vec<D
         };
         let check = Check { pass, declared, name, image };
         errors.extend(check.named(&pass.uses[..at]).or_else(|| check.possible()));
+    }
+}
+
+/// Reports why a pass can't be on any queue, which it is to be.
+fn queue(checked: &impl CheckContext, pass: &Pass, errors: &mut Vec<Diagnostic>) {
+    if pass.work.is_draw() {
+        let message = "it draws within a rendering scope, which the queue for graphics alone has";
+        let help = "leave `queue: Any` out";
+        return errors.push(Diagnostic::new(Code::USE_UNFIT, pass.span, message).help(help));
+    }
+    for access in pass.accesses() {
+        let (name, image) = match access.resource() {
+            Resource::Image(index) => match checked.image(index) {
+                Some(image) => (&image.name, Some(image)),
+                None => continue,
+            },
+            Resource::Buffer(index) => match checked.buffer(index) {
+                Some(buffer) => (&buffer.name, None),
+                None => continue,
+            },
+        };
+        let meets = |declared: &DeclaredUse| {
+            let mut meets = false;
+            access.for_each_effect(pass, image, |touched| meets |= declared.meets(&touched, image));
+            declared.is_of(&access) && meets
+        };
+        if !pass.uses.iter().any(meets) {
+            let message = format!("any queue may run the pass, and nothing says how it uses `{name}`");
+            let help = "declare it in `uses`, or leave `queue: Any` out: any command needs the queue for graphics";
+            errors.push(Diagnostic::new(Code::USE_UNFIT, access.span(), message).help(help));
+        }
     }
 }
 

@@ -5,7 +5,7 @@ use super::parts::{self, AnyPart, PartSelection};
 use crate::fields;
 use crate::language::model::DeclaredUse;
 use crate::language::scope::{Context, FieldValue};
-use crate::ron::{FieldTable, Form, Leaf};
+use crate::ron::{FieldTable, Form, Leaf, names};
 use crate::vulkan::access::StateSubject;
 
 fields! {
@@ -41,6 +41,12 @@ fields! {
 
 /// The form of `uses`.
 pub(crate) const USES: Form = Form::List(&Form::Fields(DeclaredUseFields::<'static>::table));
+
+/// The form of `queue`.
+pub(crate) const QUEUE: Form = Form::Choice("a queue", || names(&QUEUES));
+
+/// Queues that a custom pass can be recorded for: whether it may be any.
+pub(crate) const QUEUES: [(&str, bool); 2] = [("Graphics", false), ("Any", true)];
 
 impl Context<'_> {
     /// The declared uses of a custom pass.

@@ -1,10 +1,11 @@
 //! A pass: its work, bindings and targets, and the stand-ins for its targets when it is off.
 
 use super::condition::Condition;
+use super::declared_uses::QUEUES;
 use super::firsts::Firsts;
 use super::pass_fields::PassFields;
 use super::stand_ins::{OtherwiseOwner, stand_ins_make_sense};
-use super::values::optional;
+use super::values::{self, optional};
 use crate::base::{Code, Diagnostic, Span};
 use crate::frame::ViewIndex;
 use crate::language::model::{Color, Depth, Pass, PassDecisions};
@@ -71,6 +72,7 @@ impl Context<'_> {
         let alpha_to_coverage = optional(fields.alpha_to_coverage, |leaf| self.truth(leaf));
         let covers = optional(fields.covers, |leaf| self.truth(leaf).map(FieldValue::alone));
         let uses = optional(fields.uses, |leaf| self.declared_uses(leaf));
+        let queue = values::optional_choice(self.reader, fields.queue, "a queue", &QUEUES);
         let params = optional(fields.params, |leaf| self.params(leaf));
         let side_effect = optional(fields.side_effect, |leaf| self.truth(leaf).map(FieldValue::alone));
         let (draws, span) = (fields.draw.is_some(), fields.name.span());
@@ -91,6 +93,7 @@ impl Context<'_> {
                 let (draws, color) = (draws.then_some(span), color.as_deref().unwrap_or(&[]));
                 targets_make_sense(reader, draws, PassWords(name.as_ref()), color, depth.as_ref());
             }
+            let any_queue = queue?.is_some_and(|queue| queue.value);
             let (sample, left_out) = sample?.unwrap_or_default();
             Some(Arc::new(Pass {
                 name: name.clone()?,
@@ -108,6 +111,7 @@ impl Context<'_> {
                 alpha_to_coverage: alpha_to_coverage?.filter(|covers| covers.value).map(|covers| covers.span),
                 covers: covers?.unwrap_or_default(),
                 uses: uses?.unwrap_or_default(),
+                any_queue,
                 params: params?.unwrap_or_default(),
                 side_effect: side_effect?.unwrap_or_default(),
                 otherwise: Vec::new(),

@@ -43,6 +43,8 @@ pub struct Pass {
     pub covers: bool,
     /// How the commands of a custom pass use what it names, where it says so.
     pub uses: Vec<DeclaredUse>,
+    /// Whether a custom pass may be recorded for another queue than that for graphics.
+    pub any_queue: bool,
     /// Values for the shader's block `params`.
     pub params: Vec<Param>,
     /// Whether it has an effect that no image or buffer shows.
@@ -463,6 +465,7 @@ impl Pass {
             alpha_to_coverage: None,
             covers: false,
             uses: Vec::new(),
+            any_queue: false,
             params: Vec::new(),
             side_effect: false,
             otherwise: Vec::new(),

@@ -169,6 +169,7 @@ pub(crate) fn draw(
         accesses,
         buffers: Vec::new(),
         local_barrier: false,
+        any_queue: false,
         merged: None,
     }
 }
