@@ -11,7 +11,7 @@ use crate::vulkan::access::StateSubject;
 fields! {
     /// A declared use: how the program's commands touch something that their pass names.
     /// ```ron
-    /// (image: "mask", stages: [COMPUTE_SHADER], accesses: [SHADER_STORAGE_WRITE], layout: GENERAL)
+    /// (image: "image", stages: [COMPUTE_SHADER], accesses: [SHADER_STORAGE_WRITE], layout: GENERAL)
     /// ```
     struct DeclaredUseFields<'src> {
         /// Which image.
