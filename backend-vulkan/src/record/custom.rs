@@ -7,8 +7,8 @@ use crate::gpu::Gpu;
 use crate::prepare::{Frame, part};
 use ash::vk;
 use framewright_graph::frame::ParamValue;
-use framewright_graph::plan::{self, Access, BufferAccess};
-use framewright_graph::vulkan::{Accesses, FillValue};
+use framewright_graph::plan::{self, Access, BufferAccess, Queue};
+use framewright_graph::vulkan::{Accesses, FillValue, Stages, name_of};
 
 /// Records a custom pass, outside of rendering scopes. The pass's images and buffers go by the names that the Plan gives
 /// them, and are in the state that the Plan says.
@@ -19,6 +19,7 @@ pub struct CustomRecorder<'f> {
     frame: &'f Frame<'f>,
     commands: vk::CommandBuffer,
     pass: &'f plan::Pass,
+    queue: Queue,
     recorded: u32,
     /// Whether the program has the command buffer.
     has_raw: bool,
@@ -31,9 +32,43 @@ enum NamedResource<'f> {
     Buffer(&'f BufferAccess),
 }
 
+impl NamedResource<'_> {
+    fn accesses(&self) -> Accesses {
+        match self {
+            NamedResource::Image(it) => it.accesses,
+            NamedResource::Buffer(it) => it.accesses,
+        }
+    }
+
+    fn stages(&self) -> Stages {
+        match self {
+            NamedResource::Image(it) => it.stages,
+            NamedResource::Buffer(it) => it.stages,
+        }
+    }
+}
+
 impl<'f> CustomRecorder<'f> {
-    pub(crate) fn new(frame: &'f Frame<'f>, commands: vk::CommandBuffer, pass: &'f plan::Pass) -> CustomRecorder<'f> {
-        CustomRecorder { frame, commands, pass, recorded: 0, has_raw: false, misuse: None }
+    /// `queue`: that of the pass's step.
+    pub(crate) fn new(
+        frame: &'f Frame<'f>,
+        commands: vk::CommandBuffer,
+        pass: &'f plan::Pass,
+        queue: Queue,
+    ) -> CustomRecorder<'f> {
+        CustomRecorder { frame, commands, pass, queue, recorded: 0, has_raw: false, misuse: None }
+    }
+
+    /// The queue of the Plan that runs the pass: that for graphics, or that for compute if the pipeline says `queue: Any`.
+    #[must_use]
+    pub fn queue(&self) -> Queue {
+        self.queue
+    }
+
+    /// The queue family that the command buffer is for.
+    #[must_use]
+    pub fn queue_family(&self) -> u32 {
+        self.frame.gpu.queues.families.family(self.queue).index
     }
 
     /// The pass's name.
@@ -79,21 +114,21 @@ impl<'f> CustomRecorder<'f> {
     }
 
     fn named(&self, accesses: Accesses) -> impl Iterator<Item = &str> {
-        self.resources().filter(move |(_, it, _)| it.contains(accesses)).map(|(name, ..)| name)
+        self.resources().filter(move |(_, it)| it.accesses().contains(accesses)).map(|(name, _)| name)
     }
 
-    /// The images, then the buffers of the pass, by the Plan's names, with what it may do with each.
-    fn resources(&self) -> impl Iterator<Item = (&'f str, Accesses, NamedResource<'f>)> + use<'f> {
+    /// The images, then the buffers of the pass, by the Plan's names.
+    fn resources(&self) -> impl Iterator<Item = (&'f str, NamedResource<'f>)> + use<'f> {
         let (plan, pass) = (self.frame.plan, self.pass);
-        let image = |it: &'f Access| (&*plan.image(it.image).name, it.accesses, NamedResource::Image(it));
-        let buffer =
-            |it: &'f BufferAccess| (&*plan.buffers[it.buffer.0 as usize].name, it.accesses, NamedResource::Buffer(it));
+        let image = |it: &'f Access| (&*plan.image(it.image).name, NamedResource::Image(it));
+        let buffer = |it: &'f BufferAccess| (&*plan.buffers[it.buffer.0 as usize].name, NamedResource::Buffer(it));
         pass.accesses.iter().map(image).chain(pass.buffers.iter().map(buffer))
     }
 
-    /// Sets all that the pass may write of an image or buffer to a value that its format holds.
+    /// Sets all that the pass may write of an image or buffer to a value that its format holds. Where the pass declares the use, it names
+    /// `CLEAR`.
     pub fn fill(&mut self, target: &str, value: FillValue) {
-        let Some(named) = self.find(target, Accesses::TRANSFER_WRITE) else { return };
+        let Some(named) = self.find(target, Accesses::TRANSFER_WRITE, Stages::CLEAR) else { return };
         let format = match named {
             NamedResource::Image(access) => Some(self.frame.plan.image(access.image).format),
             NamedResource::Buffer(_) => None,
@@ -107,13 +142,10 @@ impl<'f> CustomRecorder<'f> {
 
     /// Copies the first mip level that the pass may read of one image or buffer to that of another. Between images formats,
     /// extents and rotations must agree; between buffers the shorter says how much; beside a buffer texels follow each other
-    /// without gaps.
+    /// without gaps. Where the pass declares the uses, they name `COPY`.
     pub fn copy(&mut self, source: &str, target: &str) {
-        let (Some(from), Some(to)) =
-            (self.find(source, Accesses::TRANSFER_READ), self.find(target, Accesses::TRANSFER_WRITE))
-        else {
-            return;
-        };
+        let from = self.find(source, Accesses::TRANSFER_READ, Stages::COPY);
+        let (Some(from), Some(to)) = (from, self.find(target, Accesses::TRANSFER_WRITE, Stages::COPY)) else { return };
         if !self.agree(&from, &to) {
             return self.misused(|| format!("`{source}` and `{target}` differ in format, extent or rotation"));
         }
@@ -143,15 +175,22 @@ impl<'f> CustomRecorder<'f> {
         self.commands
     }
 
-    /// The image or buffer that the pass declares by this name and for these accesses; a misuse if there is none.
-    fn find(&mut self, name: &str, accesses: Accesses) -> Option<NamedResource<'f>> {
+    /// The image or buffer that the pass names by this name, for these accesses in one stage; a misuse if there is none.
+    fn find(&mut self, name: &str, accesses: Accesses, stage: Stages) -> Option<NamedResource<'f>> {
         if self.misuse.is_some() {
             return None;
         }
-        let found = self.resources().find(|(known, it, _)| *known == name && it.contains(accesses)).map(|it| it.2);
-        if found.is_none() {
-            let verb = if accesses == Accesses::TRANSFER_READ { "reads" } else { "writes" };
-            self.misused(|| format!("the pass {verb} no `{name}` by transfer"));
+        let mut named = self.resources().filter(|(known, it)| *known == name && it.accesses().contains(accesses));
+        let found = named.next().map(|(_, it)| it);
+        let verb = if accesses == Accesses::TRANSFER_READ { "reads" } else { "writes" };
+        match &found {
+            None => self.misused(|| format!("the pass {verb} no `{name}` by transfer")),
+            Some(it) if !it.stages().intersects(stage | Stages::ALL_COMMANDS) => {
+                let (stage, declared) = (name_of(&stage), name_of(&it.stages()));
+                self.misused(|| format!("the pass declares to use `{name}` in {declared}, and {verb} it in {stage}"));
+                return None;
+            }
+            Some(_) => {}
         }
         found
     }
@@ -204,7 +243,7 @@ impl<'f> CustomRecorder<'f> {
         if self.has_raw {
             no_scope(self.frame.gpu, self.commands);
         }
-        let unwritten = self.resources().find(|(_, it, _)| self.recorded == 0 && !it.writes().is_empty());
+        let unwritten = self.resources().find(|(_, it)| self.recorded == 0 && !it.accesses().writes().is_empty());
         let unwritten = unwritten.map(|(name, ..)| format!("nothing was recorded, and the pass writes `{name}`"));
         self.misuse.or(unwritten).map_or(Ok(self.recorded), Err)
     }

@@ -4,7 +4,7 @@ use crate::base::convert;
 use crate::prepare::{Frame, part};
 use ash::vk;
 use framewright_graph::plan::{self, Access, BufferAccess, Plan};
-use framewright_graph::vulkan::{Accesses, Rotation, Subresources};
+use framewright_graph::vulkan::{Accesses, Rotation, Stages, Subresources};
 
 /// An image of a pass, for commands of the program's own.
 #[derive(Debug, Clone, Copy)]
@@ -20,7 +20,9 @@ pub struct CustomImage {
     pub rotation: Rotation,
     /// The layout that it is in and must be left in.
     pub layout: vk::ImageLayout,
-    /// The accesses that the pipeline declares. The barriers wait for all that are possible in the layout.
+    /// The stages that the barriers wait for: those that the pipeline declares in `uses`, else `ALL_COMMANDS`.
+    pub stages: Stages,
+    /// The accesses that the pipeline declares. Without `uses` the barriers wait for all that are possible in the layout.
     pub accesses: Accesses,
 }
 
@@ -38,6 +40,7 @@ impl CustomImage {
             extent: extent(plan, access),
             rotation: plan.image(access.image).rotation,
             layout: convert::layout(access.layout),
+            stages: access.stages,
             accesses: access.accesses - Accesses::MEMORY_READ - Accesses::MEMORY_WRITE,
         })
     }

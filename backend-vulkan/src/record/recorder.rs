@@ -151,6 +151,12 @@ impl<'f> Recorder<'f> {
         self.frame.told
     }
 
+    /// The queue family that the command buffer is for: that of graphics.
+    #[must_use]
+    pub fn queue_family(&self) -> u32 {
+        self.canvas.gpu.queues.families.graphics.index
+    }
+
     /// Binds a group to the set number `set`, from 1 on.
     pub fn bind_group(&mut self, set: u32, group: &BindGroup) {
         if !self.has_pipeline {

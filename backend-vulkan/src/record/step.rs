@@ -63,8 +63,9 @@ impl Recording<'_> {
                     self.end_pass(commands, Counts { draws: 1, culled: 0 });
                 }
                 Command::Custom => {
-                    for pass in self.frame.plan.steps[step].work.passes() {
-                        let draws = self.custom(commands, pass)?;
+                    let planned = &self.frame.plan.steps[step];
+                    for pass in planned.work.passes() {
+                        let draws = self.custom(commands, pass, planned.queue)?;
                         self.end_pass(commands, Counts { draws, culled: 0 });
                     }
                 }
@@ -80,9 +81,9 @@ impl Recording<'_> {
         self.observers.stamp(commands);
     }
 
-    fn custom(&mut self, commands: vk::CommandBuffer, pass: &Pass) -> Result<u32, Error> {
+    fn custom(&mut self, commands: vk::CommandBuffer, pass: &Pass, queue: Queue) -> Result<u32, Error> {
         self.state.lose_track();
-        let mut recorder = CustomRecorder::new(self.frame, commands, pass);
+        let mut recorder = CustomRecorder::new(self.frame, commands, pass, queue);
         self.source.custom(&pass.shader, &mut recorder)?;
         recorder.finish().map_err(|what| Error::Recording { pass: pass.name.to_string(), what })
     }

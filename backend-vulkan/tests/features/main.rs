@@ -13,6 +13,7 @@ mod breadcrumbs;
 mod clear_values;
 mod compute;
 mod debugging;
+mod declared_uses;
 mod depth;
 mod dynamic_buffers;
 mod formats;

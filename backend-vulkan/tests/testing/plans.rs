@@ -200,6 +200,7 @@ fn access(image: ImageId, state: State) -> Access {
         accesses: state.accesses,
         layout: state.layout,
         binding: None,
+        declared: false,
     }
 }
 
@@ -225,6 +226,7 @@ fn pass(name: &str, shader: &str, draw: Draw, target: ImageId) -> Pass {
         accesses: vec![access(target, State { accesses: Accesses::COLOR_ATTACHMENT_WRITE, ..DRAWN })],
         buffers: Vec::new(),
         local_barrier: false,
+        any_queue: false,
         merged: None,
     }
 }

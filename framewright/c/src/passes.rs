@@ -28,6 +28,8 @@ pub struct FramewrightPass<'p> {
     pub frame: u64,
     /// Leads `framewright_pass_image` and `framewright_pass_buffer` to what the pass accesses.
     pub resources: *const FramewrightResources<'p>,
+    /// The queue family that the commands are for: that for graphics, or that for compute if the pipeline says `queue: Any`.
+    pub queue_family: u32,
 }
 
 /// What a pass outside of a rendering scope accesses.
@@ -68,6 +70,7 @@ impl Callback {
     pub(crate) fn inside(&self, recorder: &mut Recorder<'_>) -> Result<u32, Error> {
         let (name, custom) = (recorder.pass().to_owned(), recorder.shader().to_owned());
         let ([width, height], frame) = (recorder.target_extent(), recorder.frame());
+        let queue_family = recorder.queue_family();
         let commands = recorder.raw();
         let pass = |name, custom| FramewrightPass {
             name,
@@ -78,6 +81,7 @@ impl Callback {
             height,
             frame,
             resources: ptr::null(),
+            queue_family,
         };
         self.call(&name, &custom, pass).map(|()| 1)
     }
@@ -85,7 +89,8 @@ impl Callback {
     /// Has the program record what stands outside of rendering scopes.
     pub(crate) fn outside(&self, custom: &str, recorder: &mut CustomRecorder<'_>) -> Result<(), Error> {
         let commands = recorder.raw();
-        let (resources, frame) = (FramewrightResources(recorder), recorder.frame());
+        let (queue_family, frame) = (recorder.queue_family(), recorder.frame());
+        let resources = FramewrightResources(recorder);
         let pass = |name, custom| FramewrightPass {
             name,
             custom,
@@ -95,6 +100,7 @@ impl Callback {
             height: 0,
             frame,
             resources: &resources,
+            queue_family,
         };
         self.call(recorder.pass(), custom, pass)
     }

@@ -364,6 +364,14 @@ impl Use {
     pub(super) const ALL: u32 = u32::MAX;
     /// Several subresources.
     pub(super) const SEVERAL: SubresourceIndex = u32::MAX;
+
+    /// The usage that it takes of an image.
+    pub(super) fn image_usage(&self) -> Usage {
+        match self.role.is_declared() {
+            false => self.role.usage(),
+            true => self.accesses.image_usage() | self.layout.usage(),
+        }
+    }
 }
 
 /// The role in which an operation uses an image or buffer.
@@ -383,6 +391,9 @@ pub(super) enum Role {
     Stencil,
     /// A buffer, in the way that its pass says.
     Buffer,
+    /// An image or buffer as the program's commands use it, in the way that their pass declares. Its entry is its place among all
+    /// accesses of the pass.
+    Declared,
     /// Source of a transfer.
     Source,
     /// Target of a transfer.
@@ -396,7 +407,13 @@ impl Role {
             Role::Color => Some(AttachmentKind::Color),
             Role::Depth => Some(AttachmentKind::Depth),
             Role::Stencil => Some(AttachmentKind::Stencil),
-            Role::Sampled | Role::Input | Role::Storage | Role::Buffer | Role::Source | Role::Target => None,
+            Role::Sampled
+            | Role::Input
+            | Role::Storage
+            | Role::Buffer
+            | Role::Declared
+            | Role::Source
+            | Role::Target => None,
         }
     }
 
@@ -415,14 +432,19 @@ impl Role {
         matches!(self, Role::Input)
     }
 
-    /// Whether shaders access it without sampling.
+    /// Whether shaders may access it without sampling.
     pub(super) fn is_stored(self) -> bool {
-        matches!(self, Role::Storage | Role::Buffer)
+        matches!(self, Role::Storage | Role::Buffer | Role::Declared)
     }
 
     /// Whether it is a buffer.
     pub(super) fn is_buffer(self) -> bool {
         matches!(self, Role::Buffer)
+    }
+
+    /// Whether its pass declares the use.
+    pub(super) fn is_declared(self) -> bool {
+        matches!(self, Role::Declared)
     }
 
     /// Whether it is the target of a transfer.
@@ -435,8 +457,8 @@ impl Role {
         self.attachment().is_some()
     }
 
-    /// The usage that it takes of an image.
-    pub(super) fn usage(self) -> Usage {
+    /// The usage that it takes of an image; what is declared takes that of its accesses and its layout.
+    fn usage(self) -> Usage {
         match self {
             Role::Sampled => AccessKind::Sampled.usage(),
             Role::Input => AccessKind::InputAttachment.usage(),
@@ -445,7 +467,7 @@ impl Role {
             Role::Depth | Role::Stencil => AccessKind::DepthAttachment.usage(),
             Role::Source => AccessKind::TransferSource.usage(),
             Role::Target => AccessKind::TransferTarget.usage(),
-            Role::Buffer => Usage::empty(),
+            Role::Buffer | Role::Declared => Usage::empty(),
         }
     }
 }

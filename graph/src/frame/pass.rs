@@ -1,6 +1,8 @@
 //! Passes of a frame, and their work.
 
-use super::{BufferUse, ColorTarget, DepthTarget, ParamValue, RasterState, SampledImage, Storage, TransferUse, ViewIndex, Work};
+use super::{
+    BufferUse, ColorTarget, DeclaredUse, DepthTarget, ParamValue, RasterState, SampledImage, Storage, TransferUse, ViewIndex, Work,
+};
 use crate::base::Span;
 use crate::device::Need;
 use std::sync::Arc;
@@ -47,6 +49,10 @@ pub struct Pass {
     pub buffers: Vec<BufferUse>,
     /// Images and buffers that a copy, blit, fill or custom pass reads and writes by transfer: source before target.
     pub transfers: Vec<TransferUse>,
+    /// How the commands of a custom pass use what it names. What isn't declared is used by any commands.
+    pub uses: Vec<DeclaredUse>,
+    /// Whether a custom pass that declares how it uses all that it names may be recorded for a queue for compute.
+    pub any_queue: bool,
     /// Whether it has an effect that no image or buffer shows: it is never culled.
     pub side_effect: bool,
     /// Values for the shader's parameter block, by member name.
@@ -77,6 +83,8 @@ impl Pass {
             inserted: None,
             buffers: Vec::new(),
             transfers: Vec::new(),
+            uses: Vec::new(),
+            any_queue: false,
             side_effect: false,
             params: Vec::new(),
         }

@@ -42,11 +42,11 @@ pub use inputs::{Fact, FactType, FactValue, Facts, Read, Reads, Surroundings, na
 pub(crate) use mistakes::in_order;
 pub(crate) use model::{Area, LARGEST_SIZE, PartRef, Use, area};
 pub use model::{
-    Buffer, BufferPart, BufferRef, Bytes, Choice, ChosenBy, ChosenValue, Color, Decided, Decisions, Depth, Face, Fill,
-    Format, Forward, Groups, Image, ImagePart, ImageRef, ImageShape, Instance, Layers, LeftOutSample, Lifetime, Mips,
-    OffReason, Output, Param, Part, Pass, PassDecisions, Pipeline, Precision, Precisions, Preset, RemovedPass,
-    Resolves, ResourceRef, Sample, Samples, Selection, Setting, SettingKind, SettingsFile, Size, StandIn, State,
-    Storage, StorageAccess, Uniform, View, Work, last_step, nth_step,
+    Buffer, BufferPart, BufferRef, Bytes, Choice, ChosenBy, ChosenValue, Color, Decided, Decisions, DeclaredUse, Depth,
+    Face, Fill, Format, Forward, Groups, Image, ImagePart, ImageRef, ImageShape, Instance, Layers, LeftOutSample,
+    Lifetime, Mips, OffReason, Output, Param, Part, Pass, PassDecisions, Pipeline, Precision, Precisions, Preset,
+    RemovedPass, Resolves, ResourceRef, Sample, Samples, Selection, Setting, SettingKind, SettingsFile, Size, StandIn,
+    State, Storage, StorageAccess, Uniform, View, Work, last_step, nth_step,
 };
 pub use read::{read, read_bytes, read_bytes_with, read_extended, read_with};
 pub use schema::{FILES, goes_with, schema};

@@ -175,6 +175,9 @@ pub struct Pass {
     /// include earlier and later stages of the pipeline, so colour that they read at their own position is read by then, and
     /// may be drawn over.
     pub local_barrier: bool,
+    /// Whether the program agrees to record it for another queue than that for graphics.
+    #[serde(default, skip_serializing_if = "is_not")]
+    pub any_queue: bool,
     /// Why it shares its scope with the pass before it. Boxed, since few passes do.
     pub merged: Option<Box<Reason>>,
 }
@@ -266,6 +269,9 @@ pub struct Access {
     pub layout: Layout,
     /// The shader's name for it; `None` for attachments and for images that a custom pass transfers.
     pub binding: Option<Binding>,
+    /// Whether a custom pass declares these stages, accesses and this layout. Else what the program records is any command.
+    #[serde(default, skip_serializing_if = "is_not")]
+    pub declared: bool,
 }
 
 /// One access to a buffer.
@@ -282,6 +288,14 @@ pub struct BufferAccess {
     pub accesses: Accesses,
     /// The shader's name for it, if it has one.
     pub binding: Option<Arc<str>>,
+    /// Whether a custom pass declares these stages and accesses. Else what the program records is any command.
+    #[serde(default, skip_serializing_if = "is_not")]
+    pub declared: bool,
+}
+
+/// Whether something isn't so: then the JSON form leaves it out.
+fn is_not(so: &bool) -> bool {
+    !so
 }
 
 /// A copy, blit or resolve.

@@ -276,7 +276,7 @@ fn replaces(images: &[plan::Image], scope: &RenderScope, pass: &Pass, access: &p
             || passes && set && scope.stencil().is_some_and(same))
 }
 
-fn buffer_usage(accesses: Accesses) -> BufferUsage {
+pub(super) fn buffer_usage(accesses: Accesses) -> BufferUsage {
     let storage = Accesses::SHADER_STORAGE_READ | Accesses::SHADER_STORAGE_WRITE;
     [
         (Accesses::UNIFORM_READ, BufferUsage::UNIFORM_BUFFER),

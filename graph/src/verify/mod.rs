@@ -17,6 +17,7 @@ mod barriers;
 mod boundaries;
 mod clocks;
 mod contents;
+mod declared;
 mod dependencies;
 mod eyes;
 mod findings;

@@ -27,11 +27,14 @@ const NOT_WAITED: &str =
 
 /// Who records the commands of a pass.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum CommandSource {
+pub(super) enum CommandSource {
     /// The backend, as the Plan says.
     Plan,
-    /// The program: it may use any command for what the pass reads and writes.
-    Program,
+    /// The program: it may use any command for what the pass reads and writes, unless the pass declares the use.
+    Program {
+        /// Whether it records within a rendering scope.
+        draws: bool,
+    },
 }
 
 impl CommandSource {
@@ -40,7 +43,7 @@ impl CommandSource {
     fn known(self, stages: Stages, accesses: Accesses) -> (Stages, Accesses) {
         match self {
             CommandSource::Plan => (stages, accesses),
-            CommandSource::Program => (Stages::ALL_COMMANDS, accesses - MEMORY),
+            CommandSource::Program { .. } => (Stages::ALL_COMMANDS, accesses - MEMORY),
         }
     }
 
@@ -104,7 +107,10 @@ impl<'p> Check<'_, 'p> {
         self.stencil(scope, pass);
         let tests = if scope.depth().is_some() || scope.stencil().is_some() { TESTS } else { Stages::empty() };
         let graphics = SHADERS | tests | Stages::COLOR_ATTACHMENT_OUTPUT;
-        let by = if pass.draw.is_some_and(Draw::is_custom) { CommandSource::Program } else { CommandSource::Plan };
+        let by = match pass.draw.is_some_and(Draw::is_custom) {
+            true => CommandSource::Program { draws: true },
+            false => CommandSource::Plan,
+        };
         for access in &pass.accesses {
             self.access(access, by, graphics, ATTACHMENT | SHADER);
             let attached = scope.attachments.iter().any(|attachment| {
@@ -191,11 +197,13 @@ impl<'p> Check<'_, 'p> {
         if pass.groups.is_some() {
             self.wrong_pass(pass, "is recorded by the program and has workgroups");
         }
+        self.queue_of_program(pass);
         let possible = possible(self.queue) & Stages::ALL_COMMANDS;
+        let by = CommandSource::Program { draws: false };
         for access in &pass.accesses {
-            self.access(access, CommandSource::Program, possible, STORAGE | Accesses::SHADER_SAMPLED_READ | TRANSFER);
+            self.access(access, by, possible, STORAGE | Accesses::SHADER_SAMPLED_READ | TRANSFER);
         }
-        self.buffers(pass, CommandSource::Program, possible);
+        self.buffers(pass, by, possible);
     }
 
     /// A pass outside of rendering scopes.
@@ -211,6 +219,9 @@ impl<'p> Check<'_, 'p> {
 
     fn access(&mut self, access: &Access, by: CommandSource, stages: Stages, accesses: Accesses) {
         self.stages_and_accesses(Some(access.image.0), access.stages, access.accesses);
+        if access.declared {
+            return self.declared_image(access, by);
+        }
         let attached = access.accesses.intersects(ATTACHMENT);
         let local = access.accesses.intersects(Accesses::INPUT_ATTACHMENT_READ);
         let by = if attached || local { CommandSource::Plan } else { by };
@@ -302,6 +313,9 @@ impl<'p> Check<'_, 'p> {
     fn buffer(&mut self, access: &BufferAccess, by: CommandSource, possible: Stages) {
         let resource = Some(self.plan.images.len() as u32 + access.buffer.0);
         self.stages_and_accesses(resource, access.stages, access.accesses);
+        if access.declared {
+            return self.declared_buffer(access, by);
+        }
         let of = |on: bool, access: Accesses| if on { access } else { Accesses::empty() };
         let (stages, accesses) = match access.role {
             Some(BufferRole::Uniform) => (SHADERS | Stages::COMPUTE_SHADER, Accesses::UNIFORM_READ),

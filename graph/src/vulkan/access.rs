@@ -319,6 +319,11 @@ impl Accesses {
         })
     }
 
+    /// The usage that an image needs for them; none for accesses to any memory.
+    pub(crate) fn image_usage(self) -> Usage {
+        rows_of(self).fold(Usage::empty(), |all, row| all | row.kind.usage())
+    }
+
     /// The usage that a buffer needs for them.
     pub(crate) fn buffer_usage(self) -> BufferUsage {
         self.iter()

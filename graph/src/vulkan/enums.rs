@@ -300,6 +300,16 @@ impl Subresources {
         Subresources { aspects: format.aspects(), base_mip: 0, mips, base_layer: 0, layers }
     }
 
+    /// Whether a part of one image has all of another one in it, both with planes and counts.
+    pub(crate) const fn contains(self, other: Subresources) -> bool {
+        const fn within(a: u32, some: u32, b: u32, others: u32) -> bool {
+            a <= b && b + others <= a + some
+        }
+        self.aspects.contains(other.aspects)
+            && within(self.base_mip, self.mips, other.base_mip, other.mips)
+            && within(self.base_layer, self.layers, other.base_layer, other.layers)
+    }
+
     /// Whether two parts of one image, both with planes and counts, have anything in common.
     pub(crate) const fn overlaps(self, other: Subresources) -> bool {
         const fn meet(a: u32, some: u32, b: u32, others: u32) -> bool {

@@ -1,7 +1,7 @@
 //! The table of layouts: what happens in each, and which images can be left in it.
 
 use super::access::AccessKind;
-use super::{Accesses, Layout, Usage};
+use super::{Accesses, Aspects, Layout, Usage};
 
 /// What a layout allows: a row for each.
 #[derive(Debug, Clone, Copy)]
@@ -115,6 +115,27 @@ impl Layout {
         match self.row().kinds {
             [first, ..] => first.usage(),
             [] => Usage::empty(),
+        }
+    }
+
+    /// Whether these planes of an image that has the planes `all` can be in it while work uses them. Where there are depth and stencil
+    /// each plane has a layout of its own.
+    pub(crate) fn is_of_planes(self, planes: Aspects, all: Aspects) -> bool {
+        let both = all.contains(Aspects::DEPTH.union(Aspects::STENCIL));
+        match self {
+            Layout::Undefined | Layout::PresentSrcKhr | Layout::RenderingLocalReadKhr => false,
+            Layout::General
+            | Layout::ShaderReadOnlyOptimal
+            | Layout::TransferSrcOptimal
+            | Layout::TransferDstOptimal => true,
+            Layout::ColorAttachmentOptimal | Layout::FragmentShadingRateAttachmentOptimalKhr => {
+                planes == Aspects::COLOR
+            }
+            Layout::DepthStencilAttachmentOptimal | Layout::DepthStencilReadOnlyOptimal => {
+                !both && !planes.intersects(Aspects::COLOR)
+            }
+            Layout::DepthAttachmentOptimal | Layout::DepthReadOnlyOptimal => both && planes == Aspects::DEPTH,
+            Layout::StencilAttachmentOptimal | Layout::StencilReadOnlyOptimal => both && planes == Aspects::STENCIL,
         }
     }
 

@@ -98,7 +98,7 @@ fn layout_contradiction(
 }
 
 /// The names of flags.
-fn words<F: bitflags::Flags + Copy>(flags: F) -> String {
+pub(crate) fn words<F: bitflags::Flags + Copy>(flags: F) -> String {
     let names: Vec<&str> = flags.iter_names().map(|(name, _)| name).collect();
     names.join(", ")
 }

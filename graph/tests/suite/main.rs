@@ -9,6 +9,7 @@ mod compile_graphs;
 mod compile_raster;
 mod custom_passes;
 mod decided;
+mod declared_uses;
 mod demotion;
 mod depth_ladder;
 mod difference;

@@ -8,7 +8,8 @@
 static const char PIPELINE[] =
     "Pipeline(version: 1,\n"
     "    images: [(name: \"mine\", format: Color(hdr: false), size: Output), (name: \"screen\", format: Output, size: Output)],\n"
-    "    passes: [(name: \"whole\", custom: \"fill\", writes: [\"mine\"]),\n"
+    "    passes: [(name: \"whole\", custom: \"fill\", writes: [\"mine\"],\n"
+    "        uses: [(image: \"mine\", stages: [CLEAR], accesses: [TRANSFER_WRITE], layout: GENERAL)]),\n"
     "        (name: \"show\", draw: FullScreen(\"copy\"), sample: {\"source\": \"mine\"}, color: [\"screen\"]),\n"
     "        (name: \"corner\", custom: \"mark\", color: [\"screen\"])],\n"
     "    outputs: [\"screen\"])\n";
@@ -33,6 +34,7 @@ typedef struct {
     FramewrightRenderer *renderer;
     int knows_marks;
     int calls;
+    uint32_t family;
 } Program;
 
 static uint32_t record(void *context, const FramewrightPass *pass) {
@@ -45,11 +47,16 @@ static uint32_t record(void *context, const FramewrightPass *pass) {
         fails(framewright_pass_image(pass, "screen", &image), FRAMEWRIGHT_STATUS_MISUSE, "accesses no image `screen`");
         fails(framewright_pass_buffer(pass, "mine", &buffer), FRAMEWRIGHT_STATUS_MISUSE, "accesses no buffer `mine`");
         check(framewright_pass_image(pass, "mine", &image));
+        program->family = pass->queue_family;
+        if (image.layout != VK_IMAGE_LAYOUT_GENERAL) {
+            return 0;
+        }
         VkClearColorValue blue = {.float32 = {0, 0, 1, 1}};
         vkCmdClearColorImage(pass->commands, image.image, image.layout, &blue, 1, &image.range);
         return image.width == 320 && image.height == 180 && image.depth == 1;
     }
-    if (strcmp(pass->custom, "mark") == 0 && pass->in_scope && program->knows_marks) {
+    if (strcmp(pass->custom, "mark") == 0 && pass->in_scope && program->knows_marks &&
+        pass->queue_family == program->family) {
         fails(framewright_pass_image(pass, "screen", &image), FRAMEWRIGHT_STATUS_MISUSE, "inside a rendering scope");
         VkClearAttachment white = {VK_IMAGE_ASPECT_COLOR_BIT, 0, {.color = {.float32 = {1, 1, 1, 1}}}};
         VkClearRect corner = {{{0, 0}, {pass->width / 2, pass->height / 2}}, 0, 1};
@@ -71,7 +78,7 @@ int main(void) {
     FramewrightDeviceOptions options = {.struct_size = sizeof options, .validation = 1};
     FramewrightDevice *device;
     check(framewright_device_open(&options, &device));
-    Program program = {NULL, 0, 0};
+    Program program = {NULL, 0, 0, VK_QUEUE_FAMILY_IGNORED};
     check(framewright_renderer_open(device, "custom.ron", NULL, &program.renderer));
     check(framewright_renderer_set_extent(program.renderer, 320, 180));
     fails(framewright_renderer_frame(program.renderer, NULL), FRAMEWRIGHT_STATUS_MISTAKES, "no recorder was set");

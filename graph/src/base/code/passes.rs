@@ -114,4 +114,11 @@ room! {
     /// the shader's second colour needs one (`layout(location = 0, index = 1)`), and is that of the one colour target. A pass that
     /// leaves out front and back faces covers nothing.
     RASTER_UNFIT = 720,
+
+    /// A custom pass can't use something as it declares.
+    ///
+    /// `uses` says by which stages and accesses, and in which layout, the program touches what the pass names in `reads`,
+    /// `writes`, `sample`, `storage` or `uniform`. Each access happens in one of the stages and in the layout; the pass names all of what
+    /// is declared, reads what is read, and writes what is written. What isn't declared is waited for by all commands.
+    USE_UNFIT = 721,
 }

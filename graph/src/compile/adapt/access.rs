@@ -1,8 +1,10 @@
 //! Which stages, accesses and layouts each use of an image or buffer takes.
 
 use crate::compile::model::{AdaptedFrame, InitialContents, OpKind, PhysicalIndex, Role, Use};
-use crate::frame::{Blend, BufferUse, ColorTarget, Resource, SampledImage, Storage, TransferUse, Work};
-use crate::vulkan::{AccessKind, Accesses, Aspects, Format, Layout, Stages};
+use crate::frame::{
+    Blend, BufferUse, ColorTarget, DeclaredUse, Image, Pass, Resource, SampledImage, Storage, TransferUse, Work,
+};
+use crate::vulkan::{AccessKind, Accesses, Aspects, Format, Layout, Stages, State};
 
 /// A reading use of this kind, from which the others are made.
 fn used(resource: PhysicalIndex, range: u32, role: Role, kind: AccessKind) -> Use {
@@ -118,15 +120,46 @@ pub(super) fn transfer(work: &Work, transfer: &TransferUse, entry: u32, resource
     Use { entry, layout, reads: made.reads || transfer.keeps, ..made }
 }
 
-/// Widens a use by a pass that the program records. The pass says what it reads and writes, not by which commands: indirect draws,
-/// builds of acceleration structures, mesh shaders. So all of them wait, and are waited for.
-pub(super) fn widen_for_program(used: &mut Use) {
+/// Gives a use by a pass that the program records the stages, accesses and layout that the pass declares of it. What it doesn't declare
+/// may be used by any command: indirect draws, builds of acceleration structures, mesh shaders. So all of them wait, and are waited for.
+pub(super) fn by_program(used: &mut Use, pass: &Pass, images: &[Image]) {
     if used.role.is_attachment() {
+        return;
+    }
+    if let Some((entry, declared)) = declared(used, pass, images) {
+        let State { stages, accesses, layout } = declared.state;
+        let [read, written] = [accesses - accesses.writes(), accesses.writes()];
+        let accesses = match (used.reads, used.writes) {
+            (true, false) => read,
+            (false, true) => written,
+            _ => accesses,
+        };
+        *used = Use { entry, role: Role::Declared, stages, accesses, layout, ..*used };
         return;
     }
     used.stages = Stages::ALL_COMMANDS;
     used.accesses.set(Accesses::MEMORY_READ, used.reads);
     used.accesses.set(Accesses::MEMORY_WRITE, used.writes);
+}
+
+/// The use that a pass declares of what a use of its own is about, and the place of that among the pass's accesses.
+fn declared<'p>(used: &Use, pass: &'p Pass, images: &[Image]) -> Option<(u32, &'p DeclaredUse)> {
+    if pass.uses.is_empty() {
+        return None;
+    }
+    let entry = used.entry as usize;
+    let of_targets = pass.color.len() + usize::from(pass.depth.is_some());
+    let buffers = pass.sampled.len() + pass.storage.len() + of_targets;
+    let at = match used.role {
+        Role::Sampled => entry,
+        Role::Storage => pass.sampled.len() + entry,
+        Role::Buffer => buffers + entry,
+        Role::Source | Role::Target => buffers + pass.buffers.len() + entry,
+        Role::Input | Role::Color | Role::Depth | Role::Stencil | Role::Declared => return None,
+    };
+    let access = pass.accesses().nth(at)?;
+    let image = access.image_index().and_then(|image| images.get(image.0 as usize));
+    Some((at as u32, pass.declared_use(&access, image)?))
 }
 
 pub(super) fn source(resource: PhysicalIndex, range: u32, stages: Stages) -> Use {

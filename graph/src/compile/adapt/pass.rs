@@ -72,7 +72,7 @@ impl Adapter<'_> {
             }
         }
         if pass.is_custom() {
-            self.uses_of_pass_mut().iter_mut().for_each(access::widen_for_program);
+            self.uses_of_pass_mut().iter_mut().for_each(|used| access::by_program(used, pass, &frame.images));
         }
         if pass.alpha_to_coverage && !access::has_samples(&self.adapted, self.uses_of_pass()) {
             let text = "alpha_to_coverage is off: its targets have 1 sample".to_owned();

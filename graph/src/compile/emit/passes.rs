@@ -4,7 +4,8 @@ use super::stage_results::{StageResults, cause, frame_work};
 use crate::compile::adapt::has_samples;
 use crate::compile::model::{Kind, Op, OpKind, ResolveShader, Role, Use};
 use crate::frame::{
-    Blend, DepthTarget, Draw, Groups, ParamValue, Pass as FramePass, RasterState, ViewIndex, Work as FrameWork,
+    Access as FrameAccess, Blend, DepthTarget, Draw, Groups, ParamValue, Pass as FramePass, RasterState, SampledImage, ViewIndex,
+    Work as FrameWork,
 };
 use crate::plan::{
     Access, Binding, BindingKind, BufferAccess, BufferId, Cause, DepthState, Fill, ImageId, Param, Pass, Side,
@@ -133,6 +134,7 @@ pub(super) fn pass(results: &StageResults<'_>, number: u32) -> Pass {
     }
     let view = view(results, declared.view);
     let mut planned = Pass { view, accesses, buffers, ..bare(name, cause, draw, work.groups(), shader) };
+    planned.any_queue = declared.any_queue;
     if work.is_draw() {
         drawn(results, &mut planned, declared, uses);
         planned.alpha_to_coverage = declared.alpha_to_coverage && has_samples(results.adapted, uses);
@@ -266,6 +268,7 @@ fn bare(name: Arc<str>, cause: Cause, draw: Option<Draw>, groups: Option<Groups>
         accesses: Vec::new(),
         buffers: Vec::new(),
         local_barrier: false,
+        any_queue: false,
         merged: None,
     }
 }
@@ -275,18 +278,23 @@ fn declared_access(results: &StageResults<'_>, used: &Use, declared: &FramePass)
     let entry = used.entry as usize;
     let mut eye = None;
     let bound = |name: &Arc<str>, kind, texture| Some(Binding { name: name.clone(), kind, texture });
+    let mut of_sampled = |sampled: &SampledImage| {
+        let texture = sampled.texture.map(|texture| adapted(results, used, texture));
+        eye = sampled.eye;
+        bound(&sampled.binding, BindingKind::Sampled(sampled.sampler), texture)
+    };
     let binding = match used.role {
-        Role::Sampled => {
-            let sampled = &declared.sampled[entry];
-            let texture = sampled.texture.map(|texture| adapted(results, used, texture));
-            eye = sampled.eye;
-            bound(&sampled.binding, BindingKind::Sampled(sampled.sampler), texture)
-        }
+        Role::Declared => declared.accesses().nth(entry).and_then(|named| match named {
+            FrameAccess::Sampled(sampled) => of_sampled(sampled),
+            FrameAccess::Storage(storage) => bound(&storage.binding, BindingKind::Storage, None),
+            _ => None,
+        }),
+        Role::Sampled => of_sampled(&declared.sampled[entry]),
         Role::Input => bound(&declared.sampled[entry].binding, BindingKind::InputAttachment, None),
         Role::Storage => bound(&declared.storage[entry].binding, BindingKind::Storage, None),
         Role::Color | Role::Depth | Role::Stencil | Role::Buffer | Role::Source | Role::Target => None,
     };
-    Access { eye, ..access(results, used, binding) }
+    Access { eye, declared: used.role.is_declared(), ..access(results, used, binding) }
 }
 
 /// The texture that an adapting shader declares: multisampled only if the image has several samples.
@@ -301,16 +309,24 @@ fn access(results: &StageResults<'_>, used: &Use, binding: Option<Binding>) -> A
     let resource = &results.adapted.resources[used.resource as usize];
     let range = results.adapted.ranges.get(used.range as usize).copied().unwrap_or_else(|| resource.all());
     let image = ImageId(resource.id);
-    Access { image, range, eye: None, stages: used.stages, accesses: used.accesses, layout: used.layout, binding }
+    let Use { stages, accesses, layout, .. } = *used;
+    Access { image, range, eye: None, stages, accesses, layout, binding, declared: false }
 }
 
 fn buffer_access(results: &StageResults<'_>, used: &Use, declared: &FramePass) -> BufferAccess {
-    let named = declared.buffers.get(used.entry as usize).filter(|_| used.role.is_buffer());
+    let named = match used.role {
+        Role::Declared => declared.accesses().nth(used.entry as usize).and_then(|named| match named {
+            FrameAccess::Buffer(named) => Some(named),
+            _ => None,
+        }),
+        role => declared.buffers.get(used.entry as usize).filter(|_| role.is_buffer()),
+    };
     BufferAccess {
         buffer: BufferId(results.adapted.resources[used.resource as usize].id),
         role: named.map(|named| named.role),
         stages: used.stages,
         accesses: used.accesses,
         binding: named.and_then(|named| named.binding.clone()),
+        declared: used.role.is_declared(),
     }
 }

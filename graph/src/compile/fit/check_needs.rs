@@ -16,6 +16,16 @@ pub(crate) fn check_needs(frame: &Frame, live: &[u32], device: &Profile) -> Resu
         if !pass.needs.is_empty() {
             needs(pass, device, &mut errors, |text| notes.push(note(NoteKind::UnknownSpirv, frame, pass, text)));
         }
+        for declared in &pass.uses {
+            if let Some(missing) = declared.state.features().find(|feature| !device.has_feature(feature)) {
+                let name = frame.name(declared.resource);
+                let message = format!(
+                    "`{}` uses `{name}` as needs the feature {missing}, which `{}` doesn't have",
+                    pass.name, device.name
+                );
+                errors.push(Diagnostic::new(Code::STATE_NEEDS, declared.span, message));
+            }
+        }
         if pass.work.draws(Draw::is_indirect) && !device.has_feature(FIRST_INSTANCE) {
             let text = format!("the first instance in its counts must be 0: `{}` lacks {FIRST_INSTANCE}", device.name);
             notes.push(note(NoteKind::FirstInstance, frame, pass, text));

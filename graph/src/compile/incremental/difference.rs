@@ -152,6 +152,8 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
         inserted,
         buffers,
         transfers,
+        uses,
+        any_queue,
         side_effect,
         params,
     } = new;
@@ -171,6 +173,8 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
         && same_lists(&old.storage, storage, same_storage)
         && old.buffers == *buffers
         && old.transfers == *transfers
+        && old.uses == *uses
+        && old.any_queue == *any_queue
         && old.needs == *needs;
     if !same {
         return Structure;

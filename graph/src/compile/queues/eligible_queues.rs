@@ -1,7 +1,8 @@
 //! Eligible queues: which queues beside graphics can run a step.
 //!
 //! Drawing, blits and resolves need a graphics queue; so do copies and fills of depth, stencil and multisampled images.
-//! A transfer queue copies, and fills buffers. Filling an image needs a compute queue at least.
+//! A transfer queue copies, and fills buffers. Filling an image needs a compute queue at least. What a program records can be on a compute
+//! queue, if it agrees and declares stages that are there.
 
 use super::number::QUEUES;
 use crate::compile::model::{AdaptedFrame, MemorySource, OpKind, Use};
@@ -70,17 +71,20 @@ impl EligibleQueues<'_> {
         let kind = &self.adapted.ops[*op as usize];
         let OpKind::Pass(pass) = kind.kind else { return Err(GraphicsOnly::DrawnOrInserted) };
         let uses = self.adapted.uses(*op);
-        let work = &self.frame.passes[pass as usize].work;
+        let declared = &self.frame.passes[pass as usize];
+        let work = &declared.work;
         let fills = work.filled().is_some();
         match work {
             _ if kind.side_effect => return Err(GraphicsOnly::Effect),
-            Work::Custom { .. } => return Err(GraphicsOnly::Custom),
+            Work::Custom { .. } if !declared.any_queue => return Err(GraphicsOnly::Custom),
             Work::Blit { .. } => return Err(GraphicsOnly::Blit),
-            Work::Copy | Work::Fill { .. } if uses.iter().any(|used| self.is_depth_or_multisampled(used)) => {
+            Work::Copy | Work::Fill { .. } | Work::Custom { .. }
+                if uses.iter().any(|used| self.is_depth_or_multisampled(used)) =>
+            {
                 return Err(GraphicsOnly::DepthOrMultisampled);
             }
             Work::Draw { .. } | Work::Forward { .. } => return Err(GraphicsOnly::DrawnOrInserted),
-            Work::Dispatch { .. } | Work::Copy | Work::Fill { .. } => {}
+            Work::Dispatch { .. } | Work::Copy | Work::Fill { .. } | Work::Custom { .. } => {}
         }
         if uses.iter().any(|used| self.is_outside(used)) {
             return Err(GraphicsOnly::Outside);
@@ -92,7 +96,8 @@ impl EligibleQueues<'_> {
         let queues = [(Queue::Compute, self.device.queues.compute), (Queue::Transfer, self.device.queues.transfer)];
         for (queue, has) in queues {
             let has_stages = uses.iter().all(|used| stages(queue).contains(used.stages) && self.is_found(used, queue));
-            eligible[queue as usize] = has && has_stages && !(queue == Queue::Transfer && fills_images);
+            let refused = queue == Queue::Transfer && (fills_images || declared.is_custom());
+            eligible[queue as usize] = has && has_stages && !refused;
         }
         if eligible.contains(&true) { Ok(eligible) } else { Err(GraphicsOnly::NoQueue) }
     }

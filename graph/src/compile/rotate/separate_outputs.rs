@@ -104,6 +104,9 @@ fn rename(pass: &mut Pass, from: ImageIndex, to: ImageIndex) {
     for transfer in pass.transfers.iter_mut().filter(|it| it.resource == Resource::Image(from)) {
         transfer.resource = Resource::Image(to);
     }
+    for declared in pass.uses.iter_mut().filter(|it| it.resource == Resource::Image(from)) {
+        declared.resource = Resource::Image(to);
+    }
     let forwarded = pass.work.forwarded_mut().into_iter().flatten();
     forwarded.filter(|it| **it == from).for_each(|it| *it = to);
 }

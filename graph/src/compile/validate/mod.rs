@@ -55,6 +55,7 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
         if check.resources() {
             check.work();
             check.storage();
+            check.uses();
             if has_files {
                 check.files();
             }

@@ -37,6 +37,15 @@ impl Check<'_> {
         let before = self.errors.len();
         let pass = self.pass;
         pass.visit_accesses(self);
+        for declared in &pass.uses {
+            match declared.resource {
+                Resource::Buffer(buffer) => self.buffer(buffer.0, 0, declared.span),
+                Resource::Image(image) => match self.frame.images.get(image.0 as usize) {
+                    Some(image) => self.inside(image, declared.range, declared.span),
+                    None => self.no_image(image, declared.span),
+                },
+            }
+        }
         self.errors.len() == before
     }
 
@@ -182,6 +191,15 @@ impl Check<'_> {
                 Some(Target { image, range: target.range(), span: target.span(), samples_because: None })
             });
             agree(&pass.name, targets, errors);
+        }
+    }
+
+    /// Declared uses are of what the pass names, and can be.
+    pub(super) fn uses(&mut self) {
+        if !self.pass.uses.is_empty() || self.pass.any_queue {
+            let mut wrong = Vec::new();
+            check::uses::check(self.frame, self.pass, &mut wrong);
+            self.within(wrong);
         }
     }
 

@@ -8,7 +8,7 @@ use crate::expand::shader::{
     self, CheckedShaders, coverage, local, params, rotation, sampled_images, samplers, stereo, storage,
     supplied_resources, variant,
 };
-use crate::frame::{BufferRole, ColorTarget, DepthTarget, Pass, Resource, TransferUse, Work};
+use crate::frame::{BufferRole, ColorTarget, DeclaredUse, DepthTarget, Pass, Resource, TransferUse, Work};
 use crate::language::{self, StandIn};
 use crate::shader::ShaderInterface;
 use crate::vulkan::{FillValue, Stages, Subresources};
@@ -89,6 +89,8 @@ pub(in crate::expand) fn draft(
         inserted: None,
         buffers: Vec::new(),
         transfers: Vec::new(),
+        uses: Vec::new(),
+        any_queue: pass.any_queue,
         side_effect: pass.side_effect,
         params: Vec::new(),
     };
@@ -120,7 +122,22 @@ pub(in crate::expand) fn draft(
     });
     buffers(pass, interface, raster, &mut lowered);
     transferred(resources, pass, &mut lowered, errors);
+    lowered.uses = pass.uses.iter().map(|declared| declared_use(resources, declared, errors)).collect();
     lowered
+}
+
+fn declared_use(
+    resources: &Resources<'_>,
+    declared: &language::DeclaredUse,
+    errors: &mut Vec<Diagnostic>,
+) -> DeclaredUse {
+    let language::DeclaredUse { part, span, state } = declared;
+    let range = match part {
+        language::Part::Image(part) => parts::range(resources, part, errors),
+        language::Part::Buffer(_) => Subresources::WHOLE,
+    };
+    let frames_ago = part.previous().map_or(0, |previous| previous.value);
+    DeclaredUse { resource: part.resource().resource, range, frames_ago, span: *span, state: *state }
 }
 
 /// Buffers that are read as uniform blocks, vertices, indices and counts.

@@ -81,7 +81,7 @@ pub(in crate::expand) fn check(
             check::transfers::check(&FilePass { resources, pass }, lowered, errors);
         }
         language::Work::Fill { to, value } => transfers::fill(resources, to, *value, errors),
-        language::Work::Custom { .. } => {}
+        language::Work::Custom { .. } => check::uses::check(&FilePass { resources, pass }, lowered, errors),
     }
 }
 

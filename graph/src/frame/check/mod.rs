@@ -8,6 +8,7 @@ pub(crate) mod contents;
 pub(crate) mod images;
 pub(crate) mod targets;
 pub(crate) mod transfers;
+pub(crate) mod uses;
 
 use super::{Buffer, BufferIndex, Frame, Image, ImageIndex};
 use crate::base::Span;

@@ -50,13 +50,22 @@ fields! {
     /// ```
     struct StateFields<'src> {
         /// Pipeline stages: `VK_PIPELINE_STAGE_2_…`.
-        stages: Leaf<'src> => Form::List(&Form::Choice("a Vulkan stage", flag_names::<Stages>)),
+        stages: Leaf<'src> => STAGES,
         /// Accesses: `VK_ACCESS_2_…`.
-        accesses: Leaf<'src> => Form::List(&Form::Choice("a Vulkan access", flag_names::<Accesses>)),
+        accesses: Leaf<'src> => ACCESSES,
         /// The layout of an image, `VK_IMAGE_LAYOUT_…`; a buffer has none.
-        layout: Option<Leaf<'src>> => Form::Choice("an image layout", || layouts().map(|(name, _)| name).collect()),
+        layout: Option<Leaf<'src>> => LAYOUT,
     }
 }
+
+/// Pipeline stages, by Vulkan's names.
+pub(crate) const STAGES: Form = Form::List(&Form::Choice("a Vulkan stage", flag_names::<Stages>));
+
+/// Accesses, by Vulkan's names.
+pub(crate) const ACCESSES: Form = Form::List(&Form::Choice("a Vulkan access", flag_names::<Accesses>));
+
+/// A layout of images, by Vulkan's name.
+pub(crate) const LAYOUT: Form = Form::Choice("an image layout", || layouts().map(|(name, _)| name).collect());
 
 /// The form of `lifetime`.
 pub(crate) const LIFETIME: Form = Form::Words(&LIFETIMES);
@@ -172,23 +181,8 @@ fn layouts() -> impl Iterator<Item = (&'static str, Layout)> {
 pub(crate) fn state<'src>(reader: &mut Reader, leaf: Leaf<'src>, of: StateSubject) -> Option<Spanned<State>> {
     if let Shape::Parentheses = leaf.shape() {
         let fields: StateFields<'_> = reader.read(leaf, "a state")?;
-        let stages = flags::<Stages>(reader, fields.stages, "`stages`", "a pipeline stage");
-        let accesses = flags::<Accesses>(reader, fields.accesses, "`accesses`", "an access");
-        let layout = match (fields.layout, of) {
-            (Some(layout), StateSubject::Buffer) => {
-                reader.wrong(Code::STATE_UNFIT, layout, "a buffer has no layout", "");
-                None
-            }
-            (Some(layout), StateSubject::Image) => {
-                reader.choice(layout, "an image layout", &layouts().collect::<Vec<_>>())
-            }
-            (None, StateSubject::Buffer) => Some(Layout::Undefined),
-            (None, StateSubject::Image) => {
-                reader.wrong(Code::STATE_UNFIT, leaf, "the state of an image has a layout", "add `layout: …`");
-                None
-            }
-        };
-        let state = vulkan::State { stages: stages?, accesses: accesses?, layout: layout? };
+        let leaves = StateLeaves { stages: fields.stages, accesses: fields.accesses, layout: fields.layout };
+        let state = named_state(reader, leaf, leaves, of)?;
         return Some(leaf.spanned(State::Named(state)));
     }
     let words = || AccessKind::TABLE.iter().filter_map(|row| row.word.map(|word| (word, row.kind)));
@@ -205,6 +199,38 @@ pub(crate) fn state<'src>(reader: &mut Reader, leaf: Leaf<'src>, of: StateSubjec
         return None;
     };
     Some(leaf.spanned(State::Word(kind)))
+}
+
+/// The parts of a state in Vulkan's words.
+#[derive(Clone, Copy)]
+pub(crate) struct StateLeaves<'src> {
+    pub(crate) stages: Leaf<'src>,
+    pub(crate) accesses: Leaf<'src>,
+    pub(crate) layout: Option<Leaf<'src>>,
+}
+
+/// A state in Vulkan's words. `whole`: all that says it.
+pub(crate) fn named_state<'src>(
+    reader: &mut Reader,
+    whole: Leaf<'src>,
+    leaves: StateLeaves<'src>,
+    of: StateSubject,
+) -> Option<vulkan::State> {
+    let stages = flags::<Stages>(reader, leaves.stages, "`stages`", "a pipeline stage");
+    let accesses = flags::<Accesses>(reader, leaves.accesses, "`accesses`", "an access");
+    let layout = match (leaves.layout, of) {
+        (Some(layout), StateSubject::Buffer) => {
+            reader.wrong(Code::STATE_UNFIT, layout, "a buffer has no layout", "");
+            None
+        }
+        (Some(layout), StateSubject::Image) => reader.choice(layout, "an image layout", &layouts().collect::<Vec<_>>()),
+        (None, StateSubject::Buffer) => Some(Layout::Undefined),
+        (None, StateSubject::Image) => {
+            reader.wrong(Code::STATE_UNFIT, whole, "the state of an image has a layout", "add `layout: …`");
+            None
+        }
+    };
+    Some(vulkan::State { stages: stages?, accesses: accesses?, layout: layout? })
 }
 
 /// A list of Vulkan's words.

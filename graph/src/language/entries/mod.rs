@@ -5,6 +5,7 @@ pub(crate) mod body;
 pub(crate) mod buffers;
 pub(crate) mod casters;
 pub(crate) mod condition;
+pub(crate) mod declared_uses;
 pub(crate) mod diagnosed;
 pub(crate) mod dispatch;
 pub(crate) mod draw;

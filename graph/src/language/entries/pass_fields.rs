@@ -3,7 +3,7 @@
 use super::condition::CONDITION;
 use super::repeat::REPEAT;
 use super::stand_ins::OTHERWISE;
-use super::{bindings, dispatch, draw, parts, raster, shader, targets, transfer, views};
+use super::{bindings, declared_uses, dispatch, draw, parts, raster, shader, targets, transfer, views};
 use crate::fields;
 use crate::ron::{Leaf, PlainForm};
 
@@ -62,6 +62,10 @@ fields! {
         pub(crate) reads: Option<Leaf<'src>> => transfer::TRANSFERRED,
         /// Images and buffers, or parts of them, that it writes by transfer; all of each is written.
         pub(crate) writes: Option<Leaf<'src>> => transfer::TRANSFERRED,
+        /// How the program's commands use what the pass names, for what is to be [waited for less](#declared-uses) than by all commands.
+        pub(crate) uses: Option<Leaf<'src>> => declared_uses::USES,
+        /// `Any`: the program may be asked to record it for a queue for compute, where that gains. `Graphics` if left out.
+        pub(crate) queue: Option<Leaf<'src>> => declared_uses::QUEUE,
         /// Values for the members of the shader's block `params`, by name: vectors and columns of matrices in `(…, …)`.
         pub(crate) params: Option<Leaf<'src>> => bindings::PARAMS,
         /// `true`: it is kept although nothing in the frame needs it.

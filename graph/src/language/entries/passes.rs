@@ -1,10 +1,11 @@
 //! A pass: its work, bindings and targets, and the stand-ins for its targets when it is off.
 
 use super::condition::Condition;
+use super::declared_uses::QUEUES;
 use super::firsts::Firsts;
 use super::pass_fields::PassFields;
 use super::stand_ins::{OtherwiseOwner, stand_ins_make_sense};
-use super::values::optional;
+use super::values::{self, optional};
 use crate::base::{Code, Diagnostic, Span};
 use crate::frame::ViewIndex;
 use crate::language::model::{Color, Depth, Pass, PassDecisions};
@@ -71,6 +72,8 @@ impl Context<'_> {
         let raster = optional(fields.raster, |leaf| self.raster(leaf));
         let alpha_to_coverage = optional(fields.alpha_to_coverage, |leaf| self.truth(leaf));
         let covers = optional(fields.covers, |leaf| self.truth(leaf).map(FieldValue::alone));
+        let uses = optional(fields.uses, |leaf| self.declared_uses(leaf));
+        let queue = values::optional_choice(self.reader, fields.queue, "a queue", &QUEUES);
         let params = optional(fields.params, |leaf| self.params(leaf));
         let side_effect = optional(fields.side_effect, |leaf| self.truth(leaf).map(FieldValue::alone));
         let (draws, span) = (fields.draw.is_some(), fields.name.span());
@@ -87,15 +90,16 @@ impl Context<'_> {
             bindings,
             (ReadableValue(vertex), ReadableValue(index)),
             targets,
-            ReadableValue(side_effect),
+            (ReadableValue(side_effect), ReadableValue(uses)),
         );
-        reported(self.reader, parts, move |reader, (work, bindings, (vertex, index), targets, side_effect)| {
+        reported(self.reader, parts, move |reader, (work, bindings, (vertex, index), targets, (side_effect, uses))| {
             let (sample, storage, uniform, params) = bindings;
             let (color, depth, raster, alpha_to_coverage, covers) = targets;
             if let (Some(color), Some(depth)) = (&color, &depth) {
                 let (draws, color) = (draws.then_some(span), color.as_deref().unwrap_or(&[]));
                 targets_make_sense(reader, draws, PassWords(name.as_ref()), color, depth.as_ref());
             }
+            let any_queue = queue?.is_some_and(|queue| queue.value);
             let (sample, left_out) = sample?.unwrap_or_default();
             Some(Arc::new(Pass {
                 name: name.clone()?,
@@ -113,6 +117,8 @@ impl Context<'_> {
                 raster: raster?,
                 alpha_to_coverage: alpha_to_coverage?.filter(|covers| covers.value).map(|covers| covers.span),
                 covers: covers?.unwrap_or_default(),
+                uses: uses?.unwrap_or_default(),
+                any_queue,
                 params: params?.unwrap_or_default(),
                 side_effect: side_effect?.unwrap_or_default(),
                 otherwise: Vec::new(),

@@ -9,7 +9,7 @@ use crate::ron::{Reader, Shape};
 use std::fmt::Display;
 
 /// Fields of a pass that have a meaning beside some kinds of work alone.
-pub(crate) const GOES_WITH: [(&str, &[&str]); 15] = [
+pub(crate) const GOES_WITH: [(&str, &[&str]); 17] = [
     ("shader", &["draw"]),
     ("groups", &["dispatch"]),
     ("sample", &["draw", "dispatch", "custom"]),
@@ -25,6 +25,8 @@ pub(crate) const GOES_WITH: [(&str, &[&str]); 15] = [
     ("covers", &["draw", "custom"]),
     ("reads", &["custom"]),
     ("writes", &["custom"]),
+    ("uses", &["custom"]),
+    ("queue", &["custom"]),
 ];
 
 impl Context<'_> {
@@ -104,6 +106,8 @@ fn fits(reader: &mut Reader, fields: &PassFields<'_>, what: impl Display, word: 
         fields.covers,
         fields.reads,
         fields.writes,
+        fields.uses,
+        fields.queue,
     ];
     for ((field, words), leaf) in GOES_WITH.into_iter().zip(values) {
         let Some(leaf) = leaf.filter(|_| !words.contains(&word)) else { continue };

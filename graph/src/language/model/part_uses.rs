@@ -116,13 +116,14 @@ impl Pass {
         })
     }
 
-    /// The parts of images whose contents it uses or would use, to be changed.
+    /// The parts of images whose contents it uses or would use, and how it declares their uses, to be changed.
     pub(crate) fn image_parts_mut(&mut self) -> impl Iterator<Item = &mut ImagePart> {
-        let Pass { sample, left_out, storage, color, depth, work, .. } = self;
+        let Pass { sample, left_out, storage, color, depth, work, uses, .. } = self;
         let left_out = left_out.iter_mut().filter_map(|left_out| left_out.sample.as_mut());
         let sampled = sample.iter_mut().chain(left_out).map(|sample| &mut sample.part);
         let targets = color.iter_mut().map(|color| &mut color.part).chain(depth.as_mut().map(|depth| &mut depth.part));
-        let others = storage.iter_mut().map(|storage| &mut storage.part).chain(work.transfers_mut());
+        let declared = uses.iter_mut().map(|declared| &mut declared.part);
+        let others = storage.iter_mut().map(|storage| &mut storage.part).chain(work.transfers_mut()).chain(declared);
         sampled.chain(targets).chain(others.filter_map(|part| match part {
             Part::Image(part) => Some(part),
             Part::Buffer(_) => None,

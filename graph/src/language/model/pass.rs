@@ -7,7 +7,7 @@ use super::resources::Fill;
 use crate::base::Span;
 use crate::frame::{Blend, Draw, ParamValue, RasterState, StencilState, ViewIndex};
 use crate::ron::{Name, Spanned};
-use crate::vulkan::{AddressMode, ColorComponents, CompareOp, Filter};
+use crate::vulkan::{self, AddressMode, ColorComponents, CompareOp, Filter};
 use std::sync::Arc;
 
 /// A pass.
@@ -43,6 +43,10 @@ pub struct Pass {
     pub alpha_to_coverage: Option<Span>,
     /// Whether the file promises that it sets every texel of its targets.
     pub covers: bool,
+    /// How the commands of a custom pass use what it names, where it says so.
+    pub uses: Vec<DeclaredUse>,
+    /// Whether a custom pass may be recorded for another queue than that for graphics.
+    pub any_queue: bool,
     /// Values for the shader's block `params`.
     pub params: Vec<Param>,
     /// Whether it has an effect that no image or buffer shows.
@@ -343,6 +347,17 @@ pub struct Depth {
     pub stencil: Option<Spanned<StencilState>>,
 }
 
+/// How the commands of a custom pass use an image or buffer that it names.
+#[derive(Debug, Clone, Copy)]
+pub struct DeclaredUse {
+    /// The part of an image, or the buffer.
+    pub part: Part,
+    /// Where it is declared.
+    pub span: Span,
+    /// The stages and accesses, and the layout of an image.
+    pub state: vulkan::State,
+}
+
 /// A value for a member of the shader's block `params`.
 #[derive(Debug, Clone)]
 pub struct Param {
@@ -454,6 +469,8 @@ impl Pass {
             raster: None,
             alpha_to_coverage: None,
             covers: false,
+            uses: Vec::new(),
+            any_queue: false,
             params: Vec::new(),
             side_effect: false,
             otherwise: Vec::new(),

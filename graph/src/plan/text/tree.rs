@@ -285,7 +285,7 @@ impl<'p> Text<'p> {
     }
 
     fn buffer(&self, access: &BufferAccess) -> Outline {
-        let kind = access.role.map_or("transferred", BufferRole::words);
+        let kind = access.role.map_or(if access.declared { "as declared" } else { "transferred" }, BufferRole::words);
         let binding = access.binding.as_ref().map_or_else(String::new, |name| format!("{} = ", ShownText(name)));
         let text = format!("{binding}{}, {kind}", self.resource(Resource::Buffer(access.buffer)));
         Outline { about: Some(About::Buffer(access.buffer)), ..Outline::detail(text) }

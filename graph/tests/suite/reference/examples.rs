@@ -63,6 +63,7 @@ pub(crate) fn whole(form: &str, example: &str) -> String {
         "Blit" => pass(&format!("blit: {example}")),
         "Fill" => pass(&format!("fill: {example}")),
         "Part" => pass(&format!("custom: \"it\", writes: [\"target\"], reads: [{example}]")),
+        "DeclaredUse" => pass(&format!("custom: \"it\", writes: [\"image\"], uses: [{example}]")),
         "Sample" => draw(&format!("color: [\"target\"], sample: {{\"source\": {example}}}")),
         "Storage" => draw(&format!("color: [\"target\"], storage: {{\"source\": {example}}}")),
         "Stages" => pass(&format!("draw: Vertices(3), shader: {example}, color: [\"target\"]")),

@@ -84,7 +84,7 @@ pub(crate) fn access(image: ImageId, accesses: Accesses) -> Access {
     };
     let range = Subresources::all(FORMAT, 1, 1);
     let binding = Some(Binding { name: format!("i{}", image.0).into(), kind, texture: None });
-    Access { image, range, eye: None, stages: CS, accesses, layout, binding }
+    Access { image, range, eye: None, stages: CS, accesses, layout, binding, declared: false }
 }
 
 /// A dispatch with these accesses.

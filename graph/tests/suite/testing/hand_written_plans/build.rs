@@ -101,7 +101,16 @@ pub(crate) fn between(image: &Image, from: State, to: State, hazard: Hazard, aft
 }
 
 pub(crate) fn access(image: &Image, (stages, accesses, layout): State) -> Access {
-    Access { image: image.id, range: range(image.format), eye: None, stages, accesses, layout, binding: None }
+    Access {
+        image: image.id,
+        range: range(image.format),
+        eye: None,
+        stages,
+        accesses,
+        layout,
+        binding: None,
+        declared: false,
+    }
 }
 
 /// A storage image by its shader's name.
@@ -162,6 +171,7 @@ pub(crate) fn draw(
         accesses,
         buffers: Vec::new(),
         local_barrier: false,
+        any_queue: false,
         merged: None,
     }
 }
@@ -221,7 +231,7 @@ pub(crate) fn place([offset, bytes]: [u64; 2], [first, last]: [u32; 2]) -> Role 
 
 /// A use of a buffer that no shader names.
 pub(crate) fn fetch(buffer: &Buffer, role: BufferRole, stages: Stages, accesses: Accesses) -> BufferAccess {
-    BufferAccess { buffer: buffer.id, role: Some(role), stages, accesses, binding: None }
+    BufferAccess { buffer: buffer.id, role: Some(role), stages, accesses, binding: None, declared: false }
 }
 
 /// A storage buffer by its own name.
@@ -233,6 +243,7 @@ pub(crate) fn block(buffer: &Buffer, stages: Stages, read: bool, write: bool) ->
         stages,
         accesses: of(read, Accesses::SHADER_STORAGE_READ) | of(write, Accesses::SHADER_STORAGE_WRITE),
         binding: Some(buffer.name.clone()),
+        declared: false,
     }
 }
 
