@@ -71,5 +71,5 @@ pub use record::{
     CullMode, CustomImage, CustomRecorder, DispatchRecorder, DrawSource, FrameReport, FrontFace, IndexType, PassReport,
     Recorder, StepReport,
 };
-pub use resources::{BindGroup, Buffer, BufferUsage, DynamicBuffer, Resource, Texture};
-pub use shaders::{PrecompiledShaders, ShaderLibrary};
+pub use resources::{BindGroup, Buffer, BufferUsage, DynamicBuffer, RawSet, Resource, Texture};
+pub use shaders::{PrecompiledShaders, SetLayouts, ShaderLibrary};

@@ -168,7 +168,7 @@ impl Device {
         check_brought(interface).map_err(bad)?;
         let supplied: Vec<_> = interface.supplied.iter().filter(|it| it.set == set).collect();
         let of_set = supplied.iter().copied();
-        check_needs(&self.gpu, &ShaderInterface::default(), of_set, 0).map_err(bad)?;
+        check_needs(&self.gpu, &ShaderInterface::default(), of_set, &[], 0).map_err(bad)?;
         if let Some((binding, _)) =
             resources.iter().find(|(binding, _)| supplied.iter().all(|it| it.binding != *binding))
         {
@@ -249,16 +249,11 @@ fn layout_binding(supplied: &SuppliedResource) -> LayoutBinding {
         SuppliedKind::StorageBlock => vk::DescriptorType::STORAGE_BUFFER,
         SuppliedKind::SampledImage => vk::DescriptorType::COMBINED_IMAGE_SAMPLER,
     };
-    LayoutBinding { binding: supplied.binding, ty, count: supplied.count, stages: ShaderStage::FLAGS }
+    let flags = vk::DescriptorBindingFlags::empty();
+    LayoutBinding { binding: supplied.binding, ty, count: supplied.count, stages: ShaderStage::FLAGS, flags }
 }
 
-/// The layouts of the sets from 1 on that `interface` brings along, without gaps.
-pub(crate) fn supplied_layouts(gpu: &Gpu, interface: &DrawInterface) -> Result<Vec<vk::DescriptorSetLayout>, Error> {
-    let last = interface.supplied.iter().map(|it| it.set).max().unwrap_or(PASS_SET);
-    (PASS_SET + 1..=last)
-        .map(|set| {
-            let of_set = interface.supplied.iter().filter(|it| it.set == set);
-            gpu.set_layout(of_set.map(layout_binding).collect())
-        })
-        .collect()
+/// The layout of a set from 1 on that `interface` brings along; without bindings if it brings nothing in it.
+pub(crate) fn supplied_layout(gpu: &Gpu, interface: &DrawInterface, set: u32) -> Result<vk::DescriptorSetLayout, Error> {
+    gpu.set_layout(interface.supplied.iter().filter(|it| it.set == set).map(layout_binding).collect())
 }
