@@ -206,7 +206,9 @@ fn elements(of: BindingKind) -> BindingKind {
 }
 
 fn endless() -> BindingKind {
-    other("an array of unknown length", "write how many elements it has: `uniform sampler2D textures[64];`")
+    let written = "write how many elements it has: `uniform sampler2D textures[64];`";
+    let table = "only sets that the program binds itself have arrays of any length (`sets` of its interface)";
+    other("an array of unknown length", &format!("{written}; {table}"))
 }
 
 /// A binding that no pass can give, and the declaration to write instead.

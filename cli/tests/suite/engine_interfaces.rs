@@ -111,8 +111,10 @@ fn a_shader_declares_at_most_as_many_textures_as_the_interface_brings() {
     let said =
         "shader `terrain` uses `textures` (set 2, binding 3) as an array of 17, and the draw source brings along 16";
     check("[17]").exits(1).mentions(said).mentions("engine.ron:15:58").mentions("declare at most 16");
-    let endless = check("[]").exits(1).err;
-    assert!(endless.contains("an array of images whose length isn't written: write it, as in"), "{endless}");
+    check("[]")
+        .exits(1)
+        .mentions("shader `terrain` uses `textures` (set 2, binding 3) as an array of unknown length, which isn't supported")
+        .mentions("write how many elements it has: `uniform sampler2D textures[64];`");
 }
 
 #[test]

@@ -9,7 +9,7 @@ use crate::language;
 use crate::ron::Name;
 use crate::shader::{
     Binding, DrawInterface, LayoutFault, PASS_SET, ProgramResource, ProgramSet, ShaderInterface, SuppliedResource,
-    VertexLayout, bindings_of_read_sets, resource_needs, set_needs,
+    UnbindableResource, VertexLayout, bindings_of_read_sets, resource_needs, set_needs,
 };
 use std::sync::Arc;
 
@@ -149,7 +149,9 @@ fn resource(shader: &Name, binding: &Binding, supplied: &[SuppliedResource], err
         errors.push(Diagnostic { help, ..unknown });
         return;
     };
-    if (there.set, there.binding) != (binding.set, binding.binding) {
+    if let Some(UnbindableResource { what, instead, .. }) = binding.kind.unbindable() {
+        errors.push(here(format!("{wanted} as {what}, which isn't supported")).help(instead));
+    } else if (there.set, there.binding) != (binding.set, binding.binding) {
         let message = format!("{wanted}, but `{name}` is at set {}, binding {}", there.set, there.binding);
         errors.push(
             here(message)
