@@ -12,9 +12,7 @@ use framewright_graph::language::{Document, Facts};
 use framewright_graph::plan::Plan;
 use framewright_graph::vulkan::Rotation;
 use framewright_passes::scene::Scene;
-use framewright_vulkan::{
-    Device, DrawSource, Executor, FrameReport, Overlay, Presentation, RawSet, Swapchain, Texels,
-};
+use framewright_vulkan::{Device, DrawSource, Executor, FrameReport, Overlay, Presentation, RawSet, Swapchain, Texels};
 use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::path::Path;

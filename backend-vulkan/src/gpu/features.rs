@@ -355,14 +355,18 @@ fn indexing(to: &mut vk::PhysicalDeviceVulkan12Features<'_>, it: &vk::PhysicalDe
     to.shader_storage_texel_buffer_array_dynamic_indexing = it.shader_storage_texel_buffer_array_dynamic_indexing;
     to.shader_uniform_buffer_array_non_uniform_indexing = it.shader_uniform_buffer_array_non_uniform_indexing;
     to.shader_storage_buffer_array_non_uniform_indexing = it.shader_storage_buffer_array_non_uniform_indexing;
-    to.shader_uniform_texel_buffer_array_non_uniform_indexing = it.shader_uniform_texel_buffer_array_non_uniform_indexing;
-    to.shader_storage_texel_buffer_array_non_uniform_indexing = it.shader_storage_texel_buffer_array_non_uniform_indexing;
+    to.shader_uniform_texel_buffer_array_non_uniform_indexing =
+        it.shader_uniform_texel_buffer_array_non_uniform_indexing;
+    to.shader_storage_texel_buffer_array_non_uniform_indexing =
+        it.shader_storage_texel_buffer_array_non_uniform_indexing;
     to.descriptor_binding_uniform_buffer_update_after_bind = it.descriptor_binding_uniform_buffer_update_after_bind;
     to.descriptor_binding_sampled_image_update_after_bind = it.descriptor_binding_sampled_image_update_after_bind;
     to.descriptor_binding_storage_image_update_after_bind = it.descriptor_binding_storage_image_update_after_bind;
     to.descriptor_binding_storage_buffer_update_after_bind = it.descriptor_binding_storage_buffer_update_after_bind;
-    to.descriptor_binding_uniform_texel_buffer_update_after_bind = it.descriptor_binding_uniform_texel_buffer_update_after_bind;
-    to.descriptor_binding_storage_texel_buffer_update_after_bind = it.descriptor_binding_storage_texel_buffer_update_after_bind;
+    to.descriptor_binding_uniform_texel_buffer_update_after_bind =
+        it.descriptor_binding_uniform_texel_buffer_update_after_bind;
+    to.descriptor_binding_storage_texel_buffer_update_after_bind =
+        it.descriptor_binding_storage_texel_buffer_update_after_bind;
     to.descriptor_binding_update_unused_while_pending = it.descriptor_binding_update_unused_while_pending;
     to.descriptor_binding_partially_bound = it.descriptor_binding_partially_bound;
     to.descriptor_binding_variable_descriptor_count = it.descriptor_binding_variable_descriptor_count;

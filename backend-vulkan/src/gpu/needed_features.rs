@@ -25,12 +25,16 @@ pub(super) const NEEDED_FEATURES: [OptionalFeature; 47] = [
         "elements of arrays of storage images, by a number that differs within a draw",
         |it| &mut it.v1_2.shader_storage_image_array_non_uniform_indexing,
     ),
-    ("shaderUniformBufferArrayDynamicIndexing", "elements of arrays of uniform blocks, by a number that changes", |it| {
-        &mut it.core.shader_uniform_buffer_array_dynamic_indexing
-    }),
-    ("shaderStorageBufferArrayDynamicIndexing", "elements of arrays of storage blocks, by a number that changes", |it| {
-        &mut it.core.shader_storage_buffer_array_dynamic_indexing
-    }),
+    (
+        "shaderUniformBufferArrayDynamicIndexing",
+        "elements of arrays of uniform blocks, by a number that changes",
+        |it| &mut it.core.shader_uniform_buffer_array_dynamic_indexing,
+    ),
+    (
+        "shaderStorageBufferArrayDynamicIndexing",
+        "elements of arrays of storage blocks, by a number that changes",
+        |it| &mut it.core.shader_storage_buffer_array_dynamic_indexing,
+    ),
     (
         "shaderUniformTexelBufferArrayDynamicIndexing",
         "elements of arrays of uniform texel buffers, by a number that changes",
@@ -64,18 +68,26 @@ pub(super) const NEEDED_FEATURES: [OptionalFeature; 47] = [
     ("runtimeDescriptorArray", "arrays of the program's whose length a shader doesn't write", |it| {
         &mut it.v1_2.runtime_descriptor_array
     }),
-    ("descriptorBindingUniformBufferUpdateAfterBind", "uniform blocks that are written after their set was bound", |it| {
-        &mut it.v1_2.descriptor_binding_uniform_buffer_update_after_bind
-    }),
-    ("descriptorBindingSampledImageUpdateAfterBind", "sampled images that are written after their set was bound", |it| {
-        &mut it.v1_2.descriptor_binding_sampled_image_update_after_bind
-    }),
-    ("descriptorBindingStorageImageUpdateAfterBind", "storage images that are written after their set was bound", |it| {
-        &mut it.v1_2.descriptor_binding_storage_image_update_after_bind
-    }),
-    ("descriptorBindingStorageBufferUpdateAfterBind", "storage blocks that are written after their set was bound", |it| {
-        &mut it.v1_2.descriptor_binding_storage_buffer_update_after_bind
-    }),
+    (
+        "descriptorBindingUniformBufferUpdateAfterBind",
+        "uniform blocks that are written after their set was bound",
+        |it| &mut it.v1_2.descriptor_binding_uniform_buffer_update_after_bind,
+    ),
+    (
+        "descriptorBindingSampledImageUpdateAfterBind",
+        "sampled images that are written after their set was bound",
+        |it| &mut it.v1_2.descriptor_binding_sampled_image_update_after_bind,
+    ),
+    (
+        "descriptorBindingStorageImageUpdateAfterBind",
+        "storage images that are written after their set was bound",
+        |it| &mut it.v1_2.descriptor_binding_storage_image_update_after_bind,
+    ),
+    (
+        "descriptorBindingStorageBufferUpdateAfterBind",
+        "storage blocks that are written after their set was bound",
+        |it| &mut it.v1_2.descriptor_binding_storage_buffer_update_after_bind,
+    ),
     (
         "descriptorBindingUniformTexelBufferUpdateAfterBind",
         "uniform texel buffers that are written after their set was bound",

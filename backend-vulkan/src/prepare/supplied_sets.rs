@@ -77,12 +77,7 @@ impl SuppliedSet {
         Ok(SuppliedSet { layout, is_read: true, blocks: Vec::new(), program: Some(offset_alignments(gpu, set)) })
     }
 
-    fn of_source(
-        gpu: &Gpu,
-        set: u32,
-        shader: &ShaderInterface,
-        brought: &DrawInterface,
-    ) -> Result<SuppliedSet, Error> {
+    fn of_source(gpu: &Gpu, set: u32, shader: &ShaderInterface, brought: &DrawInterface) -> Result<SuppliedSet, Error> {
         let of_set = shader.bindings.iter().filter(|it| it.set == set);
         let block = |it: &Binding| {
             let Block { bytes, .. } = it.kind.uniform_block()?;

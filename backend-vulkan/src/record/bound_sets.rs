@@ -135,7 +135,8 @@ fn bind_program_set(
         let (needed, given) = (alignments.len(), offsets.len());
         return Err(format!("set {number} of the program takes {needed} dynamic offsets and was given {given}"));
     }
-    let odd = offsets.iter().zip(alignments).find(|(offset, alignment)| !u64::from(**offset).is_multiple_of(**alignment));
+    let odd =
+        offsets.iter().zip(alignments).find(|(offset, alignment)| !u64::from(**offset).is_multiple_of(**alignment));
     if let Some((offset, alignment)) = odd {
         return Err(format!("the dynamic offset {offset} of set {number} is no multiple of {alignment}"));
     }

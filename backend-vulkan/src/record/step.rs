@@ -117,7 +117,8 @@ impl Recording<'_> {
         let Some(made) = self.prepared.steps[step].dispatch() else { return Ok(None) };
         let (gpu, compute) = (self.frame.gpu, vk::PipelineBindPoint::COMPUTE);
         bind_program_sets(gpu, commands, compute, &made.supplied, self.frame.sets).map_err(|what| {
-            let pass = self.frame.plan.steps[step].work.passes().first().map_or_else(String::new, |it| it.name.to_string());
+            let pass =
+                self.frame.plan.steps[step].work.passes().first().map_or_else(String::new, |it| it.name.to_string());
             Error::Recording { pass, what }
         })
     }

@@ -254,6 +254,10 @@ fn layout_binding(supplied: &SuppliedResource) -> LayoutBinding {
 }
 
 /// The layout of a set from 1 on that `interface` brings along; without bindings if it brings nothing in it.
-pub(crate) fn supplied_layout(gpu: &Gpu, interface: &DrawInterface, set: u32) -> Result<vk::DescriptorSetLayout, Error> {
+pub(crate) fn supplied_layout(
+    gpu: &Gpu,
+    interface: &DrawInterface,
+    set: u32,
+) -> Result<vk::DescriptorSetLayout, Error> {
     gpu.set_layout(interface.supplied.iter().filter(|it| it.set == set).map(layout_binding).collect())
 }

@@ -45,7 +45,8 @@ fn feature(module: &IndexedModule<'_>, chain: &Instruction) -> Option<&'static s
     // Of indices into an array of blocks the first one chooses the block.
     let variable = module.global(chain.operands.first()?.id_ref_any()?)?;
     storage_class(variable).filter(|it| matches!(it, StorageClass::Uniform | StorageClass::StorageBuffer))?;
-    let array = module.pointee(variable).filter(|it| matches!(it.class.opcode, Op::TypeArray | Op::TypeRuntimeArray))?;
+    let array =
+        module.pointee(variable).filter(|it| matches!(it.class.opcode, Op::TypeArray | Op::TypeRuntimeArray))?;
     let block = module.global(id(array, 0)?)?;
     let name = if module.is_storage_block(variable, block) { STORAGE_BLOCKS } else { UNIFORM_BLOCKS };
     varies(module, chain, 1).then_some(name)

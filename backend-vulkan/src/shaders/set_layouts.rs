@@ -13,7 +13,8 @@ impl SetLayouts {
     /// With the layout of another set, in place of the one of its number.
     ///
     /// # Safety
-    /// It must be of the device of all executors that it is used for, be made as its `ProgramSet` says, and live as long as that device.
+    /// It must be of the device of all executors that it is used for, be made as its `ProgramSet` says, and live as long as executors are
+    /// made on that device.
     #[must_use]
     pub unsafe fn with(mut self, set: u32, layout: vk::DescriptorSetLayout) -> SetLayouts {
         self.0.retain(|(known, _)| *known != set);

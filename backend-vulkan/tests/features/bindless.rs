@@ -187,7 +187,7 @@ fn a_table_of_all_textures_is_drawn_and_grows_while_frames_are_on_their_way() {
         }
         let mut executor = executor.expect("an executor");
         let mut table = Table::new(device).expect("a table");
-        let mut add = |table: &mut Table<'_>, red: u8| {
+        let add = |table: &mut Table<'_>, red: u8| {
             let sampler = SamplerDescriptor::default();
             let texel = [red, 0, 0, 255];
             table.add(device.texture(1, 1, Format::R8G8B8A8_UNORM, &texel, &sampler, false).expect("a texture"))

@@ -103,9 +103,9 @@ fn binding(reader: &mut Reader, leaf: Leaf<'_>) -> Option<ProgramBinding> {
     let count = fields.count.map_or(Some(1), |leaf| number(reader, leaf, "the count"));
     let stages = match fields.stages {
         None => Some(ALL_STAGES),
-        Some(leaf) => list(reader, Some(leaf), "stages").into_iter().try_fold(Stages::empty(), |all, stage| {
-            Some(all | reader.choice(stage, "a stage", &STAGES)?)
-        }),
+        Some(leaf) => list(reader, Some(leaf), "stages")
+            .into_iter()
+            .try_fold(Stages::empty(), |all, stage| Some(all | reader.choice(stage, "a stage", &STAGES)?)),
     };
     let mut flags = BindingFlags::default();
     for leaf in list(reader, fields.flags, "flags") {

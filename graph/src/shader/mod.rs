@@ -34,7 +34,8 @@ pub use place_names::{
     GivenNames, PASS_SET, binding_name, binding_of, is_place, location_name, offset_name, offset_of,
 };
 pub use program_set::{
-    BindingFlags, DescriptorType, ProgramBinding, ProgramResource, ProgramSet, SetFault, bindings_of_read_sets, set_needs,
+    BindingFlags, DescriptorType, ProgramBinding, ProgramResource, ProgramSet, SetFault, bindings_of_read_sets,
+    set_needs,
 };
 pub use shader_name::{ShaderName, StageName};
 pub use vertex_layout::{LayoutFault, LocationLayout, VertexInput, VertexLayout};

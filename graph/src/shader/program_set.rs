@@ -219,7 +219,8 @@ impl ProgramBinding {
 
     /// The features that its flags need, with what needs them.
     fn features(&self) -> impl Iterator<Item = (&'static str, &'static str)> {
-        let BindingFlags { partially_bound, update_after_bind, update_unused_while_pending, variable_count } = self.flags;
+        let BindingFlags { partially_bound, update_after_bind, update_unused_while_pending, variable_count } =
+            self.flags;
         let updated = self.kind.updated_after_bind().filter(|_| update_after_bind);
         let flag = |set: bool, name, what| set.then_some((name, what));
         [
@@ -358,7 +359,11 @@ impl DrawInterfaces {
         let rules: [(&str, &dyn Fn(&ProgramBinding) -> bool, u64); 4] = [
             ("uniform blocks with dynamic offsets", &|it| it.kind == Is::UniformBufferDynamic, 8),
             ("storage blocks with dynamic offsets", &|it| it.kind == Is::StorageBufferDynamic, 4),
-            ("uniform blocks that are updated after they were bound", &|it| updated(it) && uniform(it), MOST_UPDATED_UNIFORM),
+            (
+                "uniform blocks that are updated after they were bound",
+                &|it| updated(it) && uniform(it),
+                MOST_UPDATED_UNIFORM,
+            ),
             ("descriptors that are updated after they were bound", &|it| updated(it), MOST_UPDATED),
         ];
         rules.iter().find_map(|(what, counts, most)| {
@@ -409,7 +414,8 @@ pub(super) const STAGES: [(&str, Stages); 3] =
     [("Vertex", Stages::VERTEX_SHADER), ("Fragment", Stages::FRAGMENT_SHADER), ("Compute", Stages::COMPUTE_SHADER)];
 
 /// All of them.
-pub(super) const ALL_STAGES: Stages = Stages::VERTEX_SHADER.union(Stages::FRAGMENT_SHADER).union(Stages::COMPUTE_SHADER);
+pub(super) const ALL_STAGES: Stages =
+    Stages::VERTEX_SHADER.union(Stages::FRAGMENT_SHADER).union(Stages::COMPUTE_SHADER);
 
 fn stage_words(stages: Stages) -> String {
     let named = STAGES.iter().filter(|(_, stage)| stages.contains(*stage)).map(|(name, _)| name.to_lowercase());
