@@ -71,5 +71,7 @@ pub use record::{
     CullMode, CustomImage, CustomRecorder, DispatchRecorder, DrawSource, FrameReport, FrontFace, IndexType, PassReport,
     Recorder, StepReport,
 };
-pub use resources::{BindGroup, Buffer, BufferUsage, DynamicBuffer, RawSet, Resource, Texture};
+pub use resources::{
+    BindGroup, Buffer, BufferUsage, DynamicBuffer, ProgramBuffer, ProgramView, RawSet, Resource, Texture,
+};
 pub use shaders::{PrecompiledShaders, SetLayouts, ShaderLibrary};

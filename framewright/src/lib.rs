@@ -59,8 +59,9 @@ pub use framewright_passes::scene::Scene;
 pub use framewright_vulkan::{
     BindGroup, Buffer, BufferUsage, CullMode, CustomImage, CustomRecorder, Device, DeviceOptions, DispatchRecorder,
     DrawSource, DynamicBuffer, Executor, ExecutorOptions, FrameReport, FrontFace, Helper, IndexType, Overlay,
-    PrecompiledShaders, PresentMode, Presentation, RawSet, Recorder, Resource, SamplerDescriptor, ScopeFormats,
-    SemaphorePoint, SetLayouts, ShaderLibrary, Submission, Surface, Swapchain, SwapchainOptions, Texels, Texture,
+    PrecompiledShaders, PresentMode, Presentation, ProgramBuffer, ProgramView, RawSet, Recorder, Resource,
+    SamplerDescriptor, ScopeFormats, SemaphorePoint, SetLayouts, ShaderLibrary, Submission, Surface, Swapchain,
+    SwapchainOptions, Texels, Texture,
 };
 pub use options::RendererOptions;
 pub use pipeline::{Pipeline, PlannedFrame};

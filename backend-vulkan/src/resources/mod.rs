@@ -2,11 +2,13 @@
 
 mod bind_group;
 mod dynamic_buffer;
+mod program_resource;
 mod program_set;
 mod texture;
 
 pub use bind_group::{BindGroup, Resource};
 pub use dynamic_buffer::DynamicBuffer;
+pub use program_resource::{ProgramBuffer, ProgramView};
 pub use program_set::RawSet;
 pub use texture::{Buffer, BufferUsage, Texture};
 

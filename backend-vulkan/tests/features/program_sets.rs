@@ -10,8 +10,8 @@ use framewright_graph::shader::{
 use framewright_graph::vulkan::{Format, Stages, Subresources};
 use framewright_vulkan::ash::vk;
 use framewright_vulkan::{
-    Buffer, BufferUsage, Device, DispatchRecorder, DrawSource, Error, Executor, ExecutorOptions, RawSet, Recorder,
-    Resource, SamplerDescriptor, SetLayouts, ShaderLibrary, Texture,
+    Buffer, BufferUsage, Device, DispatchRecorder, DrawSource, Error, Executor, ExecutorOptions, ProgramBuffer,
+    ProgramView, RawSet, Recorder, Resource, SamplerDescriptor, SetLayouts, ShaderLibrary, Texture,
 };
 
 const OBJECTS: Draw = Draw::Objects(DrawList::Opaque);
@@ -430,5 +430,66 @@ fn sets_that_no_device_binds_are_refused_in_words() {
         many.bindings.push(ProgramBinding::new(9, DescriptorType::Sampler).with_count(u32::MAX));
         let many = said(DrawInterfaces::default().with_set(many));
         assert!(many.contains("4294967295 of them as `set 2 binding 9`"), "{many}");
+    });
+}
+
+#[test]
+fn buffers_and_views_of_the_programs_are_resources_of_groups() {
+    let interface = DrawInterface {
+        supplied: vec![
+            SuppliedResource::new(1, 0, "Brought", SuppliedKind::UniformBlock),
+            SuppliedResource::new(1, 1, "seen", SuppliedKind::SampledImage).with_count(2),
+        ],
+        ..DrawInterface::default()
+    };
+    let shader = "#version 460
+        layout(set = 1, binding = 0) uniform Brought { uint brought; };
+        layout(set = 1, binding = 1) uniform sampler2D seen[2];
+        layout(location = 0) out uint color;
+        void main() { color = brought + uint(round(textureLod(seen[1], vec2(0.75, 0.5), 0.0).r * 255.0)); }";
+    let shaders: &[(&str, &str)] = &[SHADERS[0], SHADERS[1], ("seen.frag", shader)];
+    let shaders: &'static [(&'static str, &'static str)] = shaders.to_vec().leak();
+    on_each_driver(|device| {
+        let program = Program::new(device, false);
+        let (values, _, texture) = &program._kept;
+        let (view, sampler) = texture.raw();
+        // SAFETY: they live longer than the frames.
+        let (buffer, odd, null, view, none) = unsafe {
+            let layout = vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL;
+            (
+                ProgramBuffer::new(values.raw(), 2 * u64::from(STRIDE), 16),
+                ProgramBuffer::new(values.raw(), 1, 16),
+                ProgramBuffer::new(vk::Buffer::null(), 0, 16),
+                ProgramView::new(view, layout, sampler),
+                ProgramView::new(vk::ImageView::null(), layout, sampler),
+            )
+        };
+        let group = |buffer, views: &[ProgramView]| {
+            let resources = [(0, Resource::ProgramBuffer(buffer)), (1, Resource::ProgramViews(views))];
+            device.bind_group(&interface, 1, &resources)
+        };
+        let plan = planned(device, &frame("seen", OBJECTS), &Options::default());
+        let brought = interface.clone();
+        let mut library = ShaderLibrary::new(Vec::new(), shaders, move |_| brought.clone());
+        let mut executor = Executor::new(device, &plan, &mut library, &ExecutorOptions::default()).expect("one");
+        let mut source =
+            Source { group: Some(group(buffer, &[view, view]).expect("a group")), ..Source::of(None, &[]) };
+        executor.frame(&mut source).expect("a frame");
+        assert_eq!(texels(&mut executor, "shown", 0), [203; 4]);
+
+        let said = |buffer, views: &[ProgramView]| {
+            let said = group(buffer, views).err().expect("it is refused").to_string();
+            said.strip_prefix("bind group for set 1: ").map(str::to_owned).unwrap_or(said)
+        };
+        assert!(said(odd, &[view; 2]).starts_with("`Brought`: the offset 1 is no multiple of "));
+        assert_eq!(said(null, &[view; 2]), "`Brought`: the buffer is VK_NULL_HANDLE");
+        // SAFETY: it isn't bound.
+        let empty = said(unsafe { ProgramBuffer::new(values.raw(), 0, 0) }, &[view; 2]);
+        assert!(empty.starts_with("`Brought`: 0 bytes of a buffer: "), "{empty}");
+        assert_eq!(said(buffer, &[view]), "`seen` takes 2 views and was given 1");
+        assert_eq!(said(buffer, &[view, none]), "a view or sampler of `seen` is VK_NULL_HANDLE");
+        let swapped = [(0, Resource::ProgramViews(&[view])), (1, Resource::ProgramBuffer(buffer))];
+        let swapped = device.bind_group(&interface, 1, &swapped).err().expect("it is refused").to_string();
+        assert_eq!(swapped, "bind group for set 1: `Brought` is a uniform block, and something else was given");
     });
 }
