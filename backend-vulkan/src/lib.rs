@@ -73,5 +73,7 @@ pub use record::{
     CustomImage, CustomRecorder, DispatchRecorder, DrawSource, FrameReport, IndexType, PassReport,
     Recorder, StepReport,
 };
-pub use resources::{BindGroup, Buffer, BufferUsage, DynamicBuffer, Resource, Texture};
-pub use shaders::{PrecompiledShaders, ShaderLibrary};
+pub use resources::{
+    BindGroup, Buffer, BufferUsage, DynamicBuffer, ProgramBuffer, ProgramView, RawSet, Resource, Texture,
+};
+pub use shaders::{PrecompiledShaders, SetLayouts, ShaderLibrary};

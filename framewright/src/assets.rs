@@ -25,6 +25,7 @@ impl Assets {
         let folders = folders.map(|root| root.clone().recorded(read, "the shader itself"));
         let shaders =
             ShaderLibrary::new(folders.collect(), SHADERS, options.draws.clone()).with_spirv(options.spirv.clone());
+        let shaders = shaders.with_set_layouts(options.set_layouts.clone());
         let shaders = match &options.helper {
             Some(helper) => shaders.with_helper(helper),
             None => shaders,

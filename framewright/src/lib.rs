@@ -50,7 +50,8 @@ pub use framewright_graph::frame::{Draw, DrawList, Stereo};
 pub use framewright_graph::language::Facts;
 pub use framewright_graph::plan::Plan;
 pub use framewright_graph::shader::{
-    Attribute, DrawInterface, DrawInterfaces, DrawKind, SuppliedKind, SuppliedResource,
+    Attribute, BindingFlags, DescriptorType, DrawInterface, DrawInterfaces, DrawKind, ProgramBinding, ProgramSet,
+    SuppliedKind, SuppliedResource,
 };
 pub use framewright_graph::vulkan::{Format, Rotation};
 pub use framewright_passes::draw::SceneDrawSource;
@@ -58,8 +59,9 @@ pub use framewright_passes::scene::Scene;
 pub use framewright_vulkan::{
     BindGroup, Buffer, BufferUsage, CullMode, CustomImage, CustomRecorder, Device, DeviceOptions, DispatchRecorder,
     DrawSource, DynamicBuffer, Executor, ExecutorOptions, FrameReport, FrontFace, Helper, IndexType, Overlay,
-    PrecompiledShaders, PresentMode, Presentation, Recorder, Resource, SamplerDescriptor, ScopeFormats, SemaphorePoint,
-    ShaderLibrary, Submission, Surface, Swapchain, SwapchainOptions, Texels, Texture,
+    PrecompiledShaders, PresentMode, Presentation, ProgramBuffer, ProgramView, RawSet, Recorder, Resource,
+    SamplerDescriptor, ScopeFormats, SemaphorePoint, SetLayouts, ShaderLibrary, Submission, Surface, Swapchain,
+    SwapchainOptions, Texels, Texture,
 };
 pub use options::RendererOptions;
 pub use pipeline::{Pipeline, PlannedFrame};

@@ -5,7 +5,7 @@ use framewright_graph::base::Root;
 use framewright_graph::compile;
 use framewright_graph::shader::DrawInterfaces;
 use framewright_passes::draw;
-use framewright_vulkan::{ExecutorOptions, Helper, PrecompiledShaders};
+use framewright_vulkan::{ExecutorOptions, Helper, PrecompiledShaders, SetLayouts};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -23,6 +23,8 @@ pub struct RendererOptions {
     pub spirv: Vec<(Arc<str>, Arc<[u8]>)>,
     /// What the program's draws bring along; by default what [`SceneDrawSource`](crate::SceneDrawSource) does.
     pub draws: DrawInterfaces,
+    /// Layouts of sets that the program makes and binds itself, which [`RendererOptions::draws`] tells.
+    pub set_layouts: SetLayouts,
     /// The process that compiles shaders; `None`: this one, without limits. See [`crate::vulkan::helper`].
     pub helper: Option<Helper>,
     /// Shaders that were compiled ahead. A program without the feature `shader-compiler` needs them, or a helper that has it.
@@ -41,6 +43,7 @@ impl Default for RendererOptions {
             shaders: Vec::new(),
             spirv: Vec::new(),
             draws: draw::interfaces(),
+            set_layouts: SetLayouts::default(),
             helper: None,
             precompiled: None,
             compile: compile::Options::default(),

@@ -12,7 +12,7 @@ use framewright_graph::language::{Document, Facts};
 use framewright_graph::plan::Plan;
 use framewright_graph::vulkan::Rotation;
 use framewright_passes::scene::Scene;
-use framewright_vulkan::{Device, DrawSource, Executor, FrameReport, Overlay, Presentation, Swapchain, Texels};
+use framewright_vulkan::{Device, DrawSource, Executor, FrameReport, Overlay, Presentation, RawSet, Swapchain, Texels};
 use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::path::Path;
@@ -32,6 +32,8 @@ pub struct Renderer {
     read: ReadFiles,
     chosen: DrawnChoices,
     compiler: Compiler,
+    /// The sets of the program's that the next executor begins with.
+    sets: BTreeMap<u32, (RawSet, Vec<u32>)>,
     /// What is drawn.
     drawn: Option<DrawnPlan>,
     /// Whether anything changed since it was planned.
@@ -111,6 +113,7 @@ impl Renderer {
             options,
             chosen: DrawnChoices::default(),
             compiler: Compiler::new(),
+            sets: BTreeMap::new(),
             drawn: None,
             changed: true,
         })
@@ -269,7 +272,7 @@ impl Renderer {
 
     /// Plans, and has an executor of the Plan; a new one if `anew`.
     fn renew(&mut self, anew: bool) -> Result<Change, Error> {
-        let Renderer { device, profile, options, pipeline, chosen, compiler, drawn, .. } = self;
+        let Renderer { device, profile, options, pipeline, chosen, compiler, sets, drawn, .. } = self;
         let choices = chosen.of(&pipeline.document);
         let plan = pipeline.plan(compiler, device, profile, &choices, &options.compile)?;
         let stays = |drawn: &&mut DrawnPlan| !anew && drawn.executor.plan().differs_beyond_values(plan).is_none();
@@ -279,6 +282,7 @@ impl Renderer {
             Change::Values
         } else {
             let mut executor = pipeline.assets.executor(device, plan, &options.executor)?;
+            sets.iter().for_each(|(number, (set, offsets))| executor.bind_set(*number, *set, offsets));
             let before = drawn.take().map(|before| executor.migrate_from(before.executor));
             let carried_over = before.transpose()?.unwrap_or_default();
             *drawn = Some(DrawnPlan { executor, chosen: chosen.clone() });
@@ -292,6 +296,22 @@ impl Renderer {
     fn drawn(&mut self) -> Result<&mut DrawnPlan, Error> {
         let none = || framewright_vulkan::Error::BadPlan { what: "there is none yet".to_owned() };
         Ok(self.drawn.as_mut().ok_or_else(none)?)
+    }
+
+    /// Binds a set that the program makes itself, in frames from now on and whatever is planned: see [`Executor::bind_set`].
+    pub fn bind_set(&mut self, number: u32, set: RawSet, offsets: &[u32]) {
+        self.sets.insert(number, (set, offsets.to_vec()));
+        if let Some(drawn) = &mut self.drawn {
+            drawn.executor.bind_set(number, set, offsets);
+        }
+    }
+
+    /// Lets go of the set of this number: see [`Executor::unbind_set`].
+    pub fn unbind_set(&mut self, number: u32) {
+        self.sets.remove(&number);
+        if let Some(drawn) = &mut self.drawn {
+            drawn.executor.unbind_set(number);
+        }
     }
 
     /// Whether a file that was read is another one by now, or is gone, or one that was looked for is there.

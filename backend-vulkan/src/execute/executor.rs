@@ -13,6 +13,7 @@ use crate::prepare::{
     Frame, PreparedPlan, Refusals, ResourceUses, StagedTexture, check, scope_formats, stage_textures,
 };
 use crate::record::{DrawSource, FrameReport, GuardedSource};
+use crate::resources::{ProgramSets, RawSet};
 use crate::shaders::ShaderLibrary;
 use ash::vk;
 use framewright_graph::frame::{NoTextures, Textures};
@@ -31,6 +32,8 @@ pub struct Executor {
     pub(super) first_frame: u64,
     pub(super) imports: Vec<Import>,
     readbacks: Vec<OutputReadback>,
+    /// The sets that the program binds for all passes.
+    pub(super) sets: ProgramSets,
     pub(crate) uses: ResourceUses,
     /// Before what it uses: dropping it waits for every frame.
     pub(crate) frames: Frames,
@@ -112,6 +115,7 @@ impl Executor {
             readbacks: if options.readback { OutputReadback::all(plan, &uses)? } else { Vec::new() },
             frames: Frames::new(gpu, plan, &imports, options)?,
             prepared: PreparedPlan::new(gpu, plan, shaders, options.debugging())?,
+            sets: ProgramSets::default(),
             owners: Vec::new(),
             missing: Vec::new(),
             _pipelines: pipelines,
@@ -257,7 +261,8 @@ impl Executor {
     /// What recording a frame takes.
     fn parts(&mut self, number: u64) -> (&mut Frames, Frame<'_>, &PreparedPlan, FrameExtras<'_>) {
         let told = self.first_frame + number;
-        let frame = Frame { gpu: &self.gpu, plan: &self.plan, physical: &self.prepared.physical, number, told };
+        let (gpu, plan, physical) = (&self.gpu, &self.plan, &self.prepared.physical);
+        let frame = Frame { gpu, plan, physical, sets: &self.sets, number, told };
         let extras = FrameExtras { imports: &self.imports, readbacks: &self.readbacks };
         (&mut self.frames, frame, &self.prepared, extras)
     }
@@ -274,6 +279,19 @@ impl Executor {
             return Ok(());
         }
         Err(Error::BadResource { what: format!("frame {frame} was not submitted, or a later one has taken its place") })
+    }
+
+    /// Binds a set that the program makes itself for all passes whose shaders read the set of this number, in frames from now on, with its
+    /// dynamic offsets. It takes the place of the one before. An executor that [goes on](Executor::migrate_from) from this one keeps it.
+    ///
+    /// That the set doesn't fit is an error of the frame ([`Error::Recording`]), and so is a set that a shader reads and nobody has bound.
+    pub fn bind_set(&mut self, number: u32, set: RawSet, offsets: &[u32]) {
+        self.sets.bind(number, set, offsets);
+    }
+
+    /// Lets go of the set of this number: frames from now on don't read it.
+    pub fn unbind_set(&mut self, number: u32) {
+        self.sets.unbind(number);
     }
 
     /// The report of a frame, which is waited for: its draws, and how long the device took if [`ExecutorOptions::timestamps`]

@@ -40,6 +40,7 @@ impl Executor {
         before.frames.wait_for_all()?;
         self.first_frame = before.frames();
         self.missing = before.imported();
+        self.sets.take_over(&before.sets);
         if !before.initialised {
             return Ok(Vec::new());
         }

@@ -98,6 +98,7 @@ pub(crate) struct LayoutBinding {
     /// How many descriptors it has: the elements of an array, else one.
     pub(crate) count: u32,
     pub(crate) stages: vk::ShaderStageFlags,
+    pub(crate) flags: vk::DescriptorBindingFlags,
 }
 
 /// What a graphics pipeline must fit to be bound in a rendering scope: the fields of `VkPipelineRenderingCreateInfo`, and the samples.

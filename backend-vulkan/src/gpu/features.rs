@@ -1,6 +1,7 @@
 //! The features that a device must have, and those that are used where it has them.
 
 use super::minimum::has_extensions;
+use super::needed_features::NEEDED_FEATURES;
 use ash::{khr, vk};
 use std::ffi::CStr;
 use std::marker::PhantomData;
@@ -8,10 +9,10 @@ use std::marker::PhantomData;
 /// Feature structures in the order in which they are chained.
 #[derive(Default)]
 pub(crate) struct Features {
-    core: vk::PhysicalDeviceFeatures,
-    v1_1: vk::PhysicalDeviceVulkan11Features<'static>,
-    v1_2: vk::PhysicalDeviceVulkan12Features<'static>,
-    v1_3: vk::PhysicalDeviceVulkan13Features<'static>,
+    pub(super) core: vk::PhysicalDeviceFeatures,
+    pub(super) v1_1: vk::PhysicalDeviceVulkan11Features<'static>,
+    pub(super) v1_2: vk::PhysicalDeviceVulkan12Features<'static>,
+    pub(super) v1_3: vk::PhysicalDeviceVulkan13Features<'static>,
     local_read: vk::PhysicalDeviceDynamicRenderingLocalReadFeaturesKHR<'static>,
     barycentric: vk::PhysicalDeviceFragmentShaderBarycentricFeaturesKHR<'static>,
     subgroups: Subgroups,
@@ -36,10 +37,10 @@ pub fn optional_features() -> impl Iterator<Item = (&'static str, &'static str)>
 }
 
 /// Reaches one feature's flag.
-type Flag = fn(&mut Features) -> &mut vk::Bool32;
+pub(super) type Flag = fn(&mut Features) -> &mut vk::Bool32;
 
 /// A feature that is used where a device has it: Vulkan's name, the purpose, the flag.
-type OptionalFeature = (&'static str, &'static str, Flag);
+pub(super) type OptionalFeature = (&'static str, &'static str, Flag);
 
 /// The one feature of the minimum that a program may leave out of a device that it makes itself.
 const ROBUST: &str = "robustBufferAccess";
@@ -80,93 +81,6 @@ const OPTIONAL_FEATURES: [OptionalFeature; 4] = [
     ("pipelineStatisticsQuery", "counts of fragment shaders that ran", |it| &mut it.core.pipeline_statistics_query),
     ("multiview", "two eyes in one draw, in layers", |it| &mut it.v1_1.multiview),
     ("shaderOutputLayer", "two eyes by instances, in layers", |it| &mut it.v1_2.shader_output_layer),
-];
-
-/// The same that pipelines can need by their shaders and draws: profiles tell of these.
-const NEEDED_FEATURES: [OptionalFeature; 34] = [
-    ("imageCubeArray", "shaders that see several cubes at once", |it| &mut it.core.image_cube_array),
-    (
-        "shaderSampledImageArrayDynamicIndexing",
-        "elements of arrays of sampled images, by a number that changes",
-        |it| &mut it.core.shader_sampled_image_array_dynamic_indexing,
-    ),
-    (
-        "shaderStorageImageArrayDynamicIndexing",
-        "elements of arrays of storage images, by a number that changes",
-        |it| &mut it.core.shader_storage_image_array_dynamic_indexing,
-    ),
-    (
-        "shaderSampledImageArrayNonUniformIndexing",
-        "elements of arrays of sampled images, by a number that differs within a draw",
-        |it| &mut it.v1_2.shader_sampled_image_array_non_uniform_indexing,
-    ),
-    (
-        "shaderStorageImageArrayNonUniformIndexing",
-        "elements of arrays of storage images, by a number that differs within a draw",
-        |it| &mut it.v1_2.shader_storage_image_array_non_uniform_indexing,
-    ),
-    ("drawIndirectFirstInstance", "draws whose counts, in a buffer, have a first instance that isn't 0", |it| {
-        &mut it.core.draw_indirect_first_instance
-    }),
-    ("depthBiasClamp", "a bound of the depth bias", |it| &mut it.core.depth_bias_clamp),
-    ("depthClamp", "depth that is clamped to the near and far plane", |it| &mut it.core.depth_clamp),
-    ("dualSrcBlend", "blends with a second colour of the shader", |it| &mut it.core.dual_src_blend),
-    ("wideLines", "lines that are wider than a texel", |it| &mut it.core.wide_lines),
-    ("largePoints", "points of the size that a shader says", |it| &mut it.core.large_points),
-    ("scalarBlockLayout", "blocks in scalar layout", |it| &mut it.v1_2.scalar_block_layout),
-    ("uniformBufferStandardLayout", "uniform blocks in the layout of storage blocks, std430", |it| {
-        &mut it.v1_2.uniform_buffer_standard_layout
-    }),
-    ("shaderZeroInitializeWorkgroupMemory", "shared variables that begin with 0", |it| {
-        &mut it.v1_3.shader_zero_initialize_workgroup_memory
-    }),
-    ("textureCompressionBC", "textures in the formats BC1 to BC7", |it| &mut it.core.texture_compression_bc),
-    ("textureCompressionETC2", "textures in the formats ETC2 and EAC", |it| &mut it.core.texture_compression_etc2),
-    ("textureCompressionASTC_LDR", "textures in the formats of ASTC", |it| &mut it.core.texture_compression_astc_ldr),
-    ("shaderFloat64", "floating point of 64 bits", |it| &mut it.core.shader_float64),
-    ("shaderInt64", "integers of 64 bits", |it| &mut it.core.shader_int64),
-    ("shaderInt16", "integers of 16 bits", |it| &mut it.core.shader_int16),
-    ("shaderFloat16", "floating point of 16 bits", |it| &mut it.v1_2.shader_float16),
-    ("shaderInt8", "integers of 8 bits", |it| &mut it.v1_2.shader_int8),
-    ("storageBuffer16BitAccess", "numbers of 16 bits in storage blocks", |it| &mut it.v1_1.storage_buffer16_bit_access),
-    ("uniformAndStorageBuffer16BitAccess", "numbers of 16 bits in uniform blocks", |it| {
-        &mut it.v1_1.uniform_and_storage_buffer16_bit_access
-    }),
-    ("storageBuffer8BitAccess", "numbers of 8 bits in storage blocks", |it| &mut it.v1_2.storage_buffer8_bit_access),
-    ("uniformAndStorageBuffer8BitAccess", "numbers of 8 bits in uniform blocks", |it| {
-        &mut it.v1_2.uniform_and_storage_buffer8_bit_access
-    }),
-    ("shaderBufferInt64Atomics", "atomic operations on 64 bits in storage blocks", |it| {
-        &mut it.v1_2.shader_buffer_int64_atomics
-    }),
-    ("shaderSharedInt64Atomics", "atomic operations on 64 bits in shared variables", |it| {
-        &mut it.v1_2.shader_shared_int64_atomics
-    }),
-    ("shaderStorageImageReadWithoutFormat", "loads from storage images without a format", |it| {
-        &mut it.core.shader_storage_image_read_without_format
-    }),
-    ("shaderStorageImageWriteWithoutFormat", "stores into storage images without a format", |it| {
-        &mut it.core.shader_storage_image_write_without_format
-    }),
-    ("shaderImageGatherExtended", "gathers with offsets that vary or differ", |it| {
-        &mut it.core.shader_image_gather_extended
-    }),
-    ("shaderDrawParameters", "the base vertex, base instance and number of a draw", |it| {
-        &mut it.v1_1.shader_draw_parameters
-    }),
-    ("shaderCullDistance", "triangles that a vertex shader leaves out", |it| &mut it.core.shader_cull_distance),
-    ("fragmentShaderBarycentric", "places within a triangle, in fragment shaders", |it| {
-        &mut it.barycentric.fragment_shader_barycentric
-    }),
-    ("geometryShader", "numbers of primitives in fragment shaders", |it| &mut it.core.geometry_shader),
-    ("shaderSubgroupExtendedTypes", "operations of subgroups on numbers that don't have 32 bits", |it| {
-        &mut it.v1_2.shader_subgroup_extended_types
-    }),
-    ("shaderIntegerDotProduct", "dot products of integers", |it| &mut it.v1_3.shader_integer_dot_product),
-    ("vulkanMemoryModel", "shaders of the Vulkan memory model", |it| &mut it.v1_2.vulkan_memory_model),
-    ("vulkanMemoryModelDeviceScope", "what other workgroups see, in the Vulkan memory model", |it| {
-        &mut it.v1_2.vulkan_memory_model_device_scope
-    }),
 ];
 
 /// Features that come with an extension of the device: its name, and the flag. They are used where a device has them.
@@ -221,6 +135,7 @@ impl Features {
         local.p_next = std::ptr::null_mut();
         barycentric.p_next = std::ptr::null_mut();
         let subgroups = Subgroups::of(instance, physical);
+        without_unchecked(instance, physical, &mut v1_2);
         Features { core, v1_1, v1_2, v1_3, local_read: local, barycentric, subgroups }
     }
 
@@ -281,11 +196,7 @@ impl Features {
                     on.v1_1.multiview = read!(PhysicalDeviceMultiviewFeatures).multiview;
                 }
                 Is::PHYSICAL_DEVICE_DESCRIPTOR_INDEXING_FEATURES => {
-                    let it = read!(PhysicalDeviceDescriptorIndexingFeatures);
-                    on.v1_2.shader_sampled_image_array_non_uniform_indexing =
-                        it.shader_sampled_image_array_non_uniform_indexing;
-                    on.v1_2.shader_storage_image_array_non_uniform_indexing =
-                        it.shader_storage_image_array_non_uniform_indexing;
+                    indexing(&mut on.v1_2, read!(PhysicalDeviceDescriptorIndexingFeatures));
                 }
                 Is::PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES => {
                     on.v1_2.scalar_block_layout = read!(PhysicalDeviceScalarBlockLayoutFeatures).scalar_block_layout;
@@ -476,4 +387,50 @@ impl Subgroups {
             quads_in_all_stages: subgroups.quad_operations_in_all_stages == vk::TRUE,
         }
     }
+}
+
+/// Takes over the features of descriptor indexing.
+fn indexing(to: &mut vk::PhysicalDeviceVulkan12Features<'_>, it: &vk::PhysicalDeviceDescriptorIndexingFeatures<'_>) {
+    to.shader_sampled_image_array_non_uniform_indexing = it.shader_sampled_image_array_non_uniform_indexing;
+    to.shader_storage_image_array_non_uniform_indexing = it.shader_storage_image_array_non_uniform_indexing;
+    to.shader_uniform_texel_buffer_array_dynamic_indexing = it.shader_uniform_texel_buffer_array_dynamic_indexing;
+    to.shader_storage_texel_buffer_array_dynamic_indexing = it.shader_storage_texel_buffer_array_dynamic_indexing;
+    to.shader_uniform_buffer_array_non_uniform_indexing = it.shader_uniform_buffer_array_non_uniform_indexing;
+    to.shader_storage_buffer_array_non_uniform_indexing = it.shader_storage_buffer_array_non_uniform_indexing;
+    to.shader_uniform_texel_buffer_array_non_uniform_indexing =
+        it.shader_uniform_texel_buffer_array_non_uniform_indexing;
+    to.shader_storage_texel_buffer_array_non_uniform_indexing =
+        it.shader_storage_texel_buffer_array_non_uniform_indexing;
+    to.descriptor_binding_uniform_buffer_update_after_bind = it.descriptor_binding_uniform_buffer_update_after_bind;
+    to.descriptor_binding_sampled_image_update_after_bind = it.descriptor_binding_sampled_image_update_after_bind;
+    to.descriptor_binding_storage_image_update_after_bind = it.descriptor_binding_storage_image_update_after_bind;
+    to.descriptor_binding_storage_buffer_update_after_bind = it.descriptor_binding_storage_buffer_update_after_bind;
+    to.descriptor_binding_uniform_texel_buffer_update_after_bind =
+        it.descriptor_binding_uniform_texel_buffer_update_after_bind;
+    to.descriptor_binding_storage_texel_buffer_update_after_bind =
+        it.descriptor_binding_storage_texel_buffer_update_after_bind;
+    to.descriptor_binding_update_unused_while_pending = it.descriptor_binding_update_unused_while_pending;
+    to.descriptor_binding_partially_bound = it.descriptor_binding_partially_bound;
+    to.descriptor_binding_variable_descriptor_count = it.descriptor_binding_variable_descriptor_count;
+    to.runtime_descriptor_array = it.runtime_descriptor_array;
+}
+
+/// Takes away what a device can't do together with `robustBufferAccess`, which is always asked for: some can't check the bounds of buffers
+/// that are written after their set was bound.
+fn without_unchecked(
+    instance: &ash::Instance,
+    physical: vk::PhysicalDevice,
+    features: &mut vk::PhysicalDeviceVulkan12Features<'_>,
+) {
+    let mut v1_2 = vk::PhysicalDeviceVulkan12Properties::default();
+    let mut all = vk::PhysicalDeviceProperties2::default().push_next(&mut v1_2);
+    // SAFETY: `physical` belongs to `instance`, and the chained structure outlives the call.
+    unsafe { instance.get_physical_device_properties2(physical, &mut all) };
+    if v1_2.robust_buffer_access_update_after_bind == vk::TRUE {
+        return;
+    }
+    features.descriptor_binding_uniform_buffer_update_after_bind = vk::FALSE;
+    features.descriptor_binding_storage_buffer_update_after_bind = vk::FALSE;
+    features.descriptor_binding_uniform_texel_buffer_update_after_bind = vk::FALSE;
+    features.descriptor_binding_storage_texel_buffer_update_after_bind = vk::FALSE;
 }

@@ -11,6 +11,7 @@ mod labels;
 pub mod layer;
 mod limits;
 mod minimum;
+mod needed_features;
 mod object_cache;
 mod pipeline_cache;
 mod portability;

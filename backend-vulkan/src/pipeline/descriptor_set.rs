@@ -17,6 +17,8 @@ pub(crate) struct DescriptorSet {
 pub(crate) enum DescriptorTarget {
     /// A whole buffer.
     Buffer(vk::Buffer),
+    /// A part of a buffer: its offset, and bytes.
+    BufferPart(vk::Buffer, u64, u64),
     /// A view, in the layout in which it will be, with a sampler or (storage images) without.
     Image(vk::ImageView, vk::ImageLayout, vk::Sampler),
     /// A sampler by itself.
@@ -70,6 +72,11 @@ impl DescriptorSet {
             DescriptorTarget::Buffer(buffer) => {
                 let info = [vk::DescriptorBufferInfo { buffer, offset: 0, range: vk::WHOLE_SIZE }];
                 // SAFETY: the set is in no use, has this element, and the buffer lives.
+                unsafe { self.gpu.raw.update_descriptor_sets(&[write.buffer_info(&info)], &[]) };
+            }
+            DescriptorTarget::BufferPart(buffer, offset, range) => {
+                let info = [vk::DescriptorBufferInfo { buffer, offset, range }];
+                // SAFETY: the set is in no use, has this element, and the buffer lives and holds as much.
                 unsafe { self.gpu.raw.update_descriptor_sets(&[write.buffer_info(&info)], &[]) };
             }
             DescriptorTarget::Image(image_view, image_layout, sampler) => {

@@ -5,23 +5,25 @@ use ash::vk;
 use framewright_graph::device::Abilities;
 use framewright_graph::plan::{self, Plan};
 use framewright_graph::shader::{
-    DrawInterface, LocationLayout, PASS_SET, ShaderInterface, SuppliedResource, VertexInput, VertexLayout,
-    resource_needs,
+    DrawInterface, DrawInterfaces, LocationLayout, PASS_SET, ProgramResource, ProgramSet, ShaderInterface,
+    SuppliedResource, VertexInput, VertexLayout, bindings_of_read_sets, resource_needs, set_needs,
 };
 use framewright_graph::vulkan::Component;
 
 /// Checks a shader against the device's features and limits, with the resources that the draw source brings along, whether the shader
-/// reads them or not, and the number of its pass's targets.
+/// reads them or not, the program's sets of which it reads anything, and the number of its pass's targets.
 pub(crate) fn check_needs<'s>(
     gpu: &Gpu,
-    shader: &ShaderInterface,
+    shader: &'s ShaderInterface,
     brought: impl Iterator<Item = &'s SuppliedResource> + Clone,
+    sets: &'s [ProgramSet],
     targets: usize,
 ) -> Result<(), String> {
     let limits = gpu.shader_limits();
     let abilities = Abilities { device: "this device", limits: Some(&limits), has: &|name| gpu.features.has(name) };
-    let of_resources = resource_needs(shader, brought, targets);
-    let unmet = shader.needs.iter().chain(&of_resources).find_map(|need| need.unmet(&abilities));
+    let of_resources = resource_needs(shader, brought, bindings_of_read_sets(&shader.program, sets), targets);
+    let of_sets = set_needs(&shader.program, sets);
+    let unmet = shader.needs.iter().chain(&of_resources).chain(&of_sets).find_map(|need| need.unmet(&abilities));
     unmet.map_or(Ok(()), Err)
 }
 
@@ -40,6 +42,21 @@ pub(crate) fn check_supplied(shader: &ShaderInterface, brought: &DrawInterface) 
         }
     }
     Ok(())
+}
+
+/// Sets of the program's: what the shader reads of them must be what they are.
+pub(crate) fn check_program(shader: &ShaderInterface, draws: &DrawInterfaces) -> Result<(), String> {
+    if shader.program.is_empty() {
+        return Ok(());
+    }
+    if let Some(fault) = draws.set_faults().into_iter().next() {
+        return Err(fault.message);
+    }
+    let misfit = |used: &ProgramResource| {
+        let set = draws.sets().iter().find(|set| set.set == used.set)?;
+        Some(format!("the shader uses {}: {}", used.words(), set.misfit(used)?))
+    };
+    shader.program.iter().find_map(misfit).map_or(Ok(()), Err)
 }
 
 /// A name as it is declared: of an array with its length.

@@ -15,6 +15,7 @@ impl Gpu {
     pub(crate) fn set_layout(&self, mut bindings: Vec<LayoutBinding>) -> Result<vk::DescriptorSetLayout, Error> {
         bindings.sort();
         self.caches.set_layouts.get(&bindings, |bindings| {
+            let flags: Vec<_> = bindings.iter().map(|it| it.flags).collect();
             let bindings: Vec<_> = bindings
                 .iter()
                 .map(|it| {
@@ -25,7 +26,14 @@ impl Gpu {
                         .stage_flags(it.stages)
                 })
                 .collect();
-            let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
+            let mut flagged = vk::DescriptorSetLayoutBindingFlagsCreateInfo::default().binding_flags(&flags);
+            let mut info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
+            if flags.iter().any(|flags| flags.contains(vk::DescriptorBindingFlags::UPDATE_AFTER_BIND)) {
+                info = info.flags(vk::DescriptorSetLayoutCreateFlags::UPDATE_AFTER_BIND_POOL);
+            }
+            if flags.iter().any(|flags| !flags.is_empty()) {
+                info = info.push_next(&mut flagged);
+            }
             // SAFETY: the device lives.
             unsafe { self.raw.create_descriptor_set_layout(&info, None) }
                 .map_err(Error::vulkan("creating a descriptor set layout"))

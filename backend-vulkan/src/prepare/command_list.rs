@@ -110,6 +110,8 @@ pub(crate) struct Bindings {
     pub(crate) set: vk::DescriptorSet,
     /// Push constants, in [`CommandList::parts`].
     pub(crate) parts: Run,
+    /// Whether the shader reads sets that the program binds itself.
+    pub(crate) program: bool,
 }
 
 /// What a pass draws.

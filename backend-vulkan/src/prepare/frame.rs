@@ -7,6 +7,7 @@ use crate::base::convert;
 use crate::commands::{ImageSide, TransferSide};
 use crate::gpu::Gpu;
 use crate::memory::{Image, RawBuffer};
+use crate::resources::ProgramSets;
 use ash::vk;
 use framewright_graph::frame::EyeForm;
 use framewright_graph::plan::{BufferId, ImageBarrier, ImageId, Plan, Side, Step};
@@ -18,6 +19,8 @@ pub(crate) struct Frame<'f> {
     pub(crate) gpu: &'f Arc<Gpu>,
     pub(crate) plan: &'f Plan,
     pub(crate) physical: &'f PhysicalResources,
+    /// The sets that the program binds for all passes.
+    pub(crate) sets: &'f ProgramSets,
     /// The number of the frame among those of its executor, from 0.
     pub(crate) number: u64,
     /// The number by which the program knows it. Preparing, which shows the program nothing, has none.

@@ -9,7 +9,9 @@ use super::supplied_sets::SuppliedSets;
 use super::variant::{scope_formats, variant};
 use crate::base::{Error, by};
 use crate::gpu::{Gpu, GraphicsDescriptor, LocalRead, PipelineDescriptor, RotationConstants, ScopeFormats};
-use crate::pipeline::{brought_attributes, check_brought, check_needs, check_outputs, check_supplied, own_attributes};
+use crate::pipeline::{
+    brought_attributes, check_brought, check_needs, check_outputs, check_program, check_supplied, own_attributes,
+};
 use crate::shaders::{CompiledShader, ShaderLibrary};
 use ash::vk;
 use framewright_graph::frame::{BufferRole, Draw, EyeForm, Groups};
@@ -97,7 +99,7 @@ impl PreparedDraw {
             (None, None) if self.draw.is_full_screen() && !self.state.supplied.are_read() => DrawnVertices::FullScreen,
             (None, None) => DrawnVertices::Source,
         };
-        let bindings = bindings(list, frame, plan, &mut self.sets, self.state.supplied.layout)?;
+        let bindings = bindings(list, frame, plan, &mut self.sets, &self.state.supplied)?;
         let pipeline = self.pipeline.as_ref().map(|pipeline| pipeline.raw);
         let faces = Faces::of(plan);
         Ok(DrawCommand { pipeline, bindings, pass, target, vertices, faces })
@@ -116,7 +118,7 @@ impl PreparedDispatch {
             WorkgroupCount::Direct(count) => WorkgroupCount::Direct(count),
             WorkgroupCount::Indirect(buffer, offset) => WorkgroupCount::Indirect(frame.buffer(buffer).raw, offset),
         };
-        let bindings = bindings(list, frame, pass, &mut self.sets, self.supplied.layout)?;
+        let bindings = bindings(list, frame, pass, &mut self.sets, &self.supplied)?;
         Ok(DispatchCommand { pipeline: self.pipeline.raw, bindings, groups, supplied: self.supplied.are_read() })
     }
 
@@ -148,11 +150,12 @@ fn bindings(
     frame: &Frame<'_>,
     pass: &plan::Pass,
     sets: &mut PassSets,
-    layout: vk::PipelineLayout,
+    supplied: &SuppliedSets,
 ) -> Result<Bindings, Error> {
     let set = sets.prepare(frame)?.unwrap_or_default();
     let parts = frame.plan.parts(pass).flat_map(|(_, part)| part.map(f32::to_ne_bytes)).flatten();
-    Ok(Bindings { layout, set, parts: Run::add(&mut list.parts, parts) })
+    let (layout, program) = (supplied.layout, supplied.has_program_sets());
+    Ok(Bindings { layout, set, parts: Run::add(&mut list.parts, parts), program })
 }
 
 /// The buffers of a pass that have this role.
@@ -187,11 +190,13 @@ pub(super) fn prepare_dispatch(
     let reads = shader.interface.bindings.iter().any(|binding| binding.set != PASS_SET);
     let brought = if reads { shaders.brought_along(None) } else { DrawInterface::default() };
     check_brought(&brought).map_err(mismatch)?;
-    check_needs(gpu, &shader.interface, brought.supplied.iter(), 0).map_err(mismatch)?;
+    check_program(&shader.interface, shaders.draws()).map_err(mismatch)?;
+    let sets = shaders.draws().sets();
+    check_needs(gpu, &shader.interface, brought.supplied.iter(), sets, 0).map_err(mismatch)?;
     check_supplied(&shader.interface, &brought).map_err(mismatch)?;
     let size = shader.interface.workgroup_size.unwrap_or([1; 3]);
     let sets = PassSets::new(gpu, plan, pass, &shader.interface.bindings)?;
-    let supplied = SuppliedSets::new(gpu, sets.layout, &shader.interface, &brought)?;
+    let supplied = SuppliedSets::new(gpu, sets.layout, &shader.interface, &brought, shaders)?;
     let descriptor = PipelineDescriptor::Compute { shader: shader.compute, layout: supplied.layout };
     let pipeline = PassPipeline::unmade(descriptor);
     Ok(PreparedDispatch { sets, pipeline, supplied, size })
@@ -241,7 +246,9 @@ pub(super) fn prepare_draw(
     let targets = targets(plan, scope, pass).map_err(mismatch)?;
     let written: Vec<_> = targets.iter().map(|target| &scope.color()[*target]).collect();
     check_brought(&brought).map_err(mismatch)?;
-    check_needs(gpu, &shader.interface, brought.supplied.iter(), scope.color().len()).map_err(mismatch)?;
+    check_program(&shader.interface, shaders.draws()).map_err(mismatch)?;
+    let sets = shaders.draws().sets();
+    check_needs(gpu, &shader.interface, brought.supplied.iter(), sets, scope.color().len()).map_err(mismatch)?;
     check_supplied(&shader.interface, &brought).map_err(mismatch)?;
     check_outputs(&shader.interface, plan, &written).map_err(mismatch)?;
     check_raster(gpu, &shader.interface, pass).map_err(mismatch)?;
@@ -259,7 +266,7 @@ pub(super) fn prepare_draw(
         check_reach(plan, draw, &vertices, &strides).map_err(mismatch)?;
     }
     let sets = PassSets::new(gpu, plan, pass, &shader.interface.bindings)?;
-    let supplied = SuppliedSets::new(gpu, sets.layout, &shader.interface, &brought)?;
+    let supplied = SuppliedSets::new(gpu, sets.layout, &shader.interface, &brought, shaders)?;
     let local = local_read(gpu, scope, pass, &shader, &targets).map_err(mismatch)?;
     let blend = |number: &usize| {
         let blend = pass.blend.get(*number).filter(|_| targets.contains(number))?;

@@ -83,7 +83,10 @@ impl PassSets {
                 | shader::BindingKind::Other(_) => images(gpu, plan, pass, wanted).map_err(mismatch)?,
             };
             let (binding, count, stages) = (wanted.binding, wanted.count(), stage_flags(wanted.stages));
-            bindings.push((LayoutBinding { binding, ty, count, stages }, bound));
+            bindings.push((
+                LayoutBinding { binding, ty, count, stages, flags: vk::DescriptorBindingFlags::empty() },
+                bound,
+            ));
         }
         let layout = gpu.set_layout(bindings.iter().map(|(binding, _)| *binding).collect())?;
         Ok(PassSets { layout, bindings, params, made: None })

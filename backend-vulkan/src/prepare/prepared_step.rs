@@ -8,6 +8,7 @@ use super::step::{PreparedStep, period};
 use super::steps::prepare_steps;
 use crate::base::Error;
 use crate::gpu::Gpu;
+use crate::resources::ProgramSets;
 use crate::shaders::ShaderLibrary;
 use framewright_graph::plan::Plan;
 use std::sync::Arc;
@@ -41,7 +42,7 @@ impl PreparedPlan {
         debugging: Debugging,
     ) -> Result<PreparedPlan, Error> {
         let physical = PhysicalResources::new(gpu, plan)?;
-        let frame = Frame { gpu, plan, physical: &physical, number: 0, told: 0 };
+        let frame = Frame { gpu, plan, physical: &physical, sets: ProgramSets::NONE, number: 0, told: 0 };
         let steps = prepare_steps(gpu, plan, shaders)?;
         let list = CommandList::new(plan.steps.iter().map(|step| period(&frame, step)));
         let mut prepared = PreparedPlan { physical, steps, list, debugging, first: None };
@@ -53,7 +54,8 @@ impl PreparedPlan {
     pub(crate) fn prepare_frame(&mut self, gpu: &Arc<Gpu>, plan: &Plan, number: u64) -> Result<(), Error> {
         let first = *self.first.get_or_insert(number);
         let repeats = number - first >= self.list.period;
-        let (frame, debugging) = (Frame { gpu, plan, physical: &self.physical, number, told: number }, self.debugging);
+        let frame = Frame { gpu, plan, physical: &self.physical, sets: ProgramSets::NONE, number, told: number };
+        let debugging = self.debugging;
         let (list, steps) = (&mut self.list, &mut self.steps);
         let mut prepare = |list: &mut CommandList, index: usize| {
             let (step, made) = (&plan.steps[index], &mut steps[index]);

@@ -14,7 +14,7 @@ pub(super) fn bind(
     bindings: &Bindings,
 ) {
     if bindings.set != vk::DescriptorSet::null() {
-        bind_set(gpu, commands, point, bindings.layout, 0, bindings.set);
+        bind_set(gpu, commands, point, bindings.layout, (0, bindings.set, &[]));
     }
     if !bindings.parts.is_empty() {
         let parts = bindings.parts.of(&list.parts);
@@ -24,17 +24,19 @@ pub(super) fn bind(
     }
 }
 
-/// Binds a set to a number, where the layout has the set's own layout.
+/// Binds a set to a number, where the layout has the set's own layout, with its dynamic offsets.
 pub(super) fn bind_set(
     gpu: &Gpu,
     commands: vk::CommandBuffer,
     point: vk::PipelineBindPoint,
     layout: vk::PipelineLayout,
-    number: u32,
-    set: vk::DescriptorSet,
+    (number, set, offsets): (u32, vk::DescriptorSet, &[u32]),
 ) {
     let bind = gpu.raw.fp_v1_0().cmd_bind_descriptor_sets;
-    // SAFETY: the command buffer is being recorded, and the set has the layout that the pipeline layout has at this number. A list
-    // of offsets without entries would be allocated by drivers: there is none.
-    unsafe { bind(commands, point, layout, number, 1, &raw const set, 0, std::ptr::null()) };
+    // A list of offsets without entries would be allocated by drivers: there is none.
+    let first = if offsets.is_empty() { std::ptr::null() } else { offsets.as_ptr() };
+    let count = u32::try_from(offsets.len()).unwrap_or(0);
+    // SAFETY: the command buffer is being recorded, and the set has the layout that the pipeline layout has at this number, and as many
+    // dynamic offsets.
+    unsafe { bind(commands, point, layout, number, 1, &raw const set, count, first) };
 }

@@ -2,9 +2,8 @@
 
 use super::bound_sets::BoundSets;
 use super::frame_resources::HeldResources;
-use crate::gpu::Gpu;
-use crate::prepare::SuppliedSets;
-use crate::resources::BindGroup;
+use crate::prepare::{Frame, SuppliedSets};
+use crate::resources::{BindGroup, RawSet};
 use ash::vk;
 use framewright_graph::plan;
 
@@ -22,13 +21,13 @@ pub struct DispatchRecorder<'f> {
 
 impl<'f> DispatchRecorder<'f> {
     pub(super) fn new(
-        gpu: &'f Gpu,
         commands: vk::CommandBuffer,
         supplied: &'f SuppliedSets,
         held: &'f mut HeldResources,
-        (plan, frame): (&'f plan::Pass, u64),
+        (plan, frame): (&'f plan::Pass, &'f Frame<'f>),
     ) -> DispatchRecorder<'f> {
-        let sets = BoundSets::new(gpu, vk::PipelineBindPoint::COMPUTE, supplied, held);
+        let sets = BoundSets::new(frame.gpu, vk::PipelineBindPoint::COMPUTE, supplied, held, frame.sets);
+        let frame = frame.told;
         DispatchRecorder { commands, sets, plan, frame, misuse: None }
     }
 
@@ -64,9 +63,17 @@ impl<'f> DispatchRecorder<'f> {
         }
     }
 
+    /// Binds a set that the program makes itself to its number, with its dynamic offsets. One that the pass's shader doesn't read is left
+    /// out. What [`crate::Executor::bind_set`] bound is bound already.
+    pub fn bind_set(&mut self, number: u32, set: RawSet, offsets: &[u32]) {
+        if self.misuse.is_none() {
+            self.misuse = self.sets.bind_raw(self.commands, number, set, offsets).err();
+        }
+    }
+
     /// The first misuse if there was any. That a set is missing is one.
     pub(super) fn finish(self) -> Result<(), String> {
-        let missing = self.sets.missing().map(|set| format!("a dispatch without a bind group for set {set}"));
+        let missing = self.sets.missing().map(|set| format!("a dispatch without {set}"));
         self.misuse.or(missing).map_or(Ok(()), Err)
     }
 }

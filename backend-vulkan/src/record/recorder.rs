@@ -7,7 +7,7 @@ use super::frame_resources::HeldResources;
 use crate::base::numbers;
 use crate::gpu::ScopeFormats;
 use crate::prepare::{Frame, PassState, PreparedDraw};
-use crate::resources::{BindGroup, Buffer};
+use crate::resources::{BindGroup, Buffer, RawSet};
 use ash::vk;
 use framewright_graph::frame::{EyeForm, ParamValue, Stereo};
 use framewright_graph::plan;
@@ -52,7 +52,7 @@ impl<'f> Recorder<'f> {
         begun: Result<(), String>,
     ) -> Recorder<'f> {
         let (pass, has_pipeline, misuse) = (&drawn.state, drawn.pipeline.is_some(), begun.err());
-        let sets = BoundSets::new(canvas.gpu, vk::PipelineBindPoint::GRAPHICS, &pass.supplied, kept);
+        let sets = BoundSets::new(canvas.gpu, vk::PipelineBindPoint::GRAPHICS, &pass.supplied, kept, frame.sets);
         let (vertices, indices) = (None, None);
         Recorder { canvas, sets, pass, has_pipeline, plan, frame, vertices, indices, culled: 0, ready: false, misuse }
     }
@@ -164,6 +164,13 @@ impl<'f> Recorder<'f> {
             return self.misused(|| format!("a bind group without pipeline: there is no shader `{shader}`"));
         }
         let bound = self.sets.bind(self.canvas.commands, set, group);
+        self.note(bound);
+    }
+
+    /// Binds a set that the program makes itself to its number, for the draws of this pass from now on, with its dynamic offsets. One that
+    /// the pass's shader doesn't read is left out. What [`crate::Executor::bind_set`] bound is bound already.
+    pub fn bind_set(&mut self, number: u32, set: RawSet, offsets: &[u32]) {
+        let bound = self.sets.bind_raw(self.canvas.commands, number, set, offsets);
         self.note(bound);
     }
 
@@ -295,7 +302,7 @@ impl<'f> Recorder<'f> {
     /// A draw is misuse as long as something is missing.
     fn look_for_missing(&mut self) {
         if let Some(missing) = self.sets.missing() {
-            self.misused(|| format!("a draw without a bind group for set {missing}"));
+            self.misused(|| format!("a draw without {missing}"));
         }
         if !self.has_pipeline {
             let shader = &self.plan.shader;

@@ -1,6 +1,7 @@
 //! Rendering scopes and their draws.
 
 use super::bindings::bind;
+use super::bound_sets::bind_program_sets;
 use super::canvas::Canvas;
 use super::recorded_frame::Counts;
 use super::recorder::Recorder;
@@ -47,8 +48,21 @@ impl Recording<'_> {
             }
             bind(gpu, commands, graphics, list, &draw.bindings);
         }
+        let missing = match draw.bindings.program {
+            true => {
+                let supplied = &self.prepared.steps[step].draws()[draw.pass as usize].state.supplied;
+                let point = vk::PipelineBindPoint::GRAPHICS;
+                bind_program_sets(gpu, commands, point, supplied, self.frame.sets)
+            }
+            false => Ok(None),
+        };
         let mut canvas = Canvas::new(gpu, commands, &mut self.state, &list.targets[draw.target as usize], draw.faces);
-        let begun = canvas.begin();
+        let begun = missing.and_then(|missing| match (&draw.vertices, missing) {
+            (DrawnVertices::FullScreen | DrawnVertices::Own(_), Some(set)) => {
+                Err(format!("a draw without set {set}, which the program binds itself by `Executor::bind_set`"))
+            }
+            _ => canvas.begin(),
+        });
         let planned = || &self.frame.plan.steps[step].work.passes()[draw.pass as usize];
         let drawn = match &draw.vertices {
             DrawnVertices::FullScreen => begun.and_then(|()| {

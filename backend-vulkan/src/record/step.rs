@@ -1,6 +1,7 @@
 //! A Plan's steps as commands: the list of what was prepared is walked, and nothing is allocated.
 
 use super::bindings::bind;
+use super::bound_sets::bind_program_sets;
 use super::custom::CustomRecorder;
 use super::dispatch::DispatchRecorder;
 use super::draw_source::DrawSource;
@@ -97,7 +98,8 @@ impl Recording<'_> {
             unsafe { device.cmd_bind_pipeline(commands, compute, dispatch.pipeline) };
         }
         bind(gpu, commands, compute, &self.prepared.list, &dispatch.bindings);
-        if dispatch.supplied {
+        let missing = dispatch.bindings.program && self.bind_program_sets(commands, step)?.is_some();
+        if dispatch.supplied || missing {
             self.bind_supplied(commands, step)?;
         }
         // SAFETY: the command buffer is being recorded outside a scope, everything that the pipeline reads is bound, and counts and
@@ -111,12 +113,23 @@ impl Recording<'_> {
         Ok(())
     }
 
+    /// Binds the program's sets for the dispatch of a step. Returns the first that isn't bound for all passes.
+    fn bind_program_sets(&self, commands: vk::CommandBuffer, step: usize) -> Result<Option<u32>, Error> {
+        let Some(made) = self.prepared.steps[step].dispatch() else { return Ok(None) };
+        let (gpu, compute) = (self.frame.gpu, vk::PipelineBindPoint::COMPUTE);
+        bind_program_sets(gpu, commands, compute, &made.supplied, self.frame.sets).map_err(|what| {
+            let pass =
+                self.frame.plan.steps[step].work.passes().first().map_or_else(String::new, |it| it.name.to_string());
+            Error::Recording { pass, what }
+        })
+    }
+
     /// Has the draw source bind its sets for the dispatch of a step.
     fn bind_supplied(&mut self, commands: vk::CommandBuffer, step: usize) -> Result<(), Error> {
         let planned = self.frame.plan.steps[step].work.passes().first();
         let (Some(made), Some(pass)) = (self.prepared.steps[step].dispatch(), planned) else { return Ok(()) };
-        let (gpu, held) = (self.frame.gpu, &mut self.recorded.kept);
-        let mut recorder = DispatchRecorder::new(gpu, commands, &made.supplied, held, (pass, self.frame.told));
+        let held = &mut self.recorded.kept;
+        let mut recorder = DispatchRecorder::new(commands, &made.supplied, held, (pass, self.frame));
         self.source.dispatch(&mut recorder)?;
         recorder.finish().map_err(|what| Error::Recording { pass: pass.name.to_string(), what })
     }

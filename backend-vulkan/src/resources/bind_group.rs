@@ -1,6 +1,7 @@
 //! Bind groups: the descriptor sets that a draw source brings along.
 
 use super::dynamic_buffer::DynamicBuffer;
+use super::program_resource::{ProgramBuffer, ProgramView};
 use super::texture::{Buffer, Texture};
 use crate::base::{Error, ShaderStage};
 use crate::gpu::{Device, Gpu, LayoutBinding};
@@ -21,6 +22,10 @@ pub enum Resource<'r> {
     Texture(&'r Texture),
     /// For an array of sampled images: as many as the draw interface says.
     Textures(&'r [Texture]),
+    /// For a uniform or storage block: a part of a buffer of the program's own.
+    ProgramBuffer(ProgramBuffer),
+    /// For a sampled image, or an array of them: views of the program's own, as many as the draw interface says.
+    ProgramViews(&'r [ProgramView]),
 }
 
 impl<'r> Resource<'r> {
@@ -29,7 +34,7 @@ impl<'r> Resource<'r> {
         match self {
             Resource::Texture(one) => std::slice::from_ref(*one),
             Resource::Textures(all) => all,
-            Resource::Buffer(_) | Resource::Dynamic(_) => &[],
+            Resource::Buffer(_) | Resource::Dynamic(_) | Resource::ProgramBuffer(_) | Resource::ProgramViews(_) => &[],
         }
     }
 }
@@ -168,7 +173,7 @@ impl Device {
         check_brought(interface).map_err(bad)?;
         let supplied: Vec<_> = interface.supplied.iter().filter(|it| it.set == set).collect();
         let of_set = supplied.iter().copied();
-        check_needs(&self.gpu, &ShaderInterface::default(), of_set, 0).map_err(bad)?;
+        check_needs(&self.gpu, &ShaderInterface::default(), of_set, &[], 0).map_err(bad)?;
         if let Some((binding, _)) =
             resources.iter().find(|(binding, _)| supplied.iter().all(|it| it.binding != *binding))
         {
@@ -179,6 +184,8 @@ impl Device {
             Resource::Dynamic(buffer) => buffer.0.is_of(&self.gpu),
             Resource::Texture(texture) => texture.0.image.is_of(&self.gpu),
             Resource::Textures(textures) => textures.iter().all(|it| it.0.image.is_of(&self.gpu)),
+            // The program's word.
+            Resource::ProgramBuffer(_) | Resource::ProgramViews(_) => true,
         };
         if !resources.iter().all(|(_, resource)| is_own(resource)) {
             return Err(bad("a resource belongs to another device".to_owned()));
@@ -203,6 +210,26 @@ impl Device {
                 (_, [Resource::Dynamic(it)]) if flags.is_some_and(|flags| it.0.flags.contains(flags)) => {
                     bytes.push((wanted.binding, it.bytes()));
                     Bound::Dynamic((*it).clone())
+                }
+                (kind, [Resource::ProgramBuffer(it)]) if flags.is_some() => {
+                    if let Some(misfit) = it.misfit(&self.gpu, kind) {
+                        return Err(bad(format!("`{name}`: {misfit}")));
+                    }
+                    bytes.push((wanted.binding, it.bytes));
+                    Bound::Targets(vec![DescriptorTarget::BufferPart(it.buffer, it.offset, it.bytes)])
+                }
+                (SuppliedKind::SampledImage, [Resource::ProgramViews(views)]) => {
+                    if views.len() as u64 != u64::from(wanted.count) {
+                        let (count, given) = (wanted.count, views.len());
+                        return Err(bad(format!("`{name}` takes {count} views and was given {given}")));
+                    }
+                    let is_null =
+                        |it: &ProgramView| it.view == vk::ImageView::null() || it.sampler == vk::Sampler::null();
+                    if views.iter().any(is_null) {
+                        return Err(bad(format!("a view or sampler of `{name}` is VK_NULL_HANDLE")));
+                    }
+                    let target = |it: &ProgramView| DescriptorTarget::Image(it.view, it.layout, it.sampler);
+                    Bound::Targets(views.iter().map(target).collect())
                 }
                 (SuppliedKind::SampledImage, [it @ (Resource::Texture(_) | Resource::Textures(_))]) => {
                     let these = it.textures();
@@ -249,16 +276,15 @@ fn layout_binding(supplied: &SuppliedResource) -> LayoutBinding {
         SuppliedKind::StorageBlock => vk::DescriptorType::STORAGE_BUFFER,
         SuppliedKind::SampledImage => vk::DescriptorType::COMBINED_IMAGE_SAMPLER,
     };
-    LayoutBinding { binding: supplied.binding, ty, count: supplied.count, stages: ShaderStage::FLAGS }
+    let flags = vk::DescriptorBindingFlags::empty();
+    LayoutBinding { binding: supplied.binding, ty, count: supplied.count, stages: ShaderStage::FLAGS, flags }
 }
 
-/// The layouts of the sets from 1 on that `interface` brings along, without gaps.
-pub(crate) fn supplied_layouts(gpu: &Gpu, interface: &DrawInterface) -> Result<Vec<vk::DescriptorSetLayout>, Error> {
-    let last = interface.supplied.iter().map(|it| it.set).max().unwrap_or(PASS_SET);
-    (PASS_SET + 1..=last)
-        .map(|set| {
-            let of_set = interface.supplied.iter().filter(|it| it.set == set);
-            gpu.set_layout(of_set.map(layout_binding).collect())
-        })
-        .collect()
+/// The layout of a set from 1 on that `interface` brings along; without bindings if it brings nothing in it.
+pub(crate) fn supplied_layout(
+    gpu: &Gpu,
+    interface: &DrawInterface,
+    set: u32,
+) -> Result<vk::DescriptorSetLayout, Error> {
+    gpu.set_layout(interface.supplied.iter().filter(|it| it.set == set).map(layout_binding).collect())
 }

@@ -16,12 +16,13 @@ const PARTS: &str = "FramewrightParts";
 
 /// The resources. In the pass's own set every declared one counts, since that is what a pipeline file binds; in the
 /// others only what is used, since include libraries declare more than one shader needs. `in_part`: push constants tell which
-/// parts of images are in use.
+/// parts of images are in use. Sets of the program's are left out: [`super::program_resources`] has them.
 pub(super) fn bindings(
     module: &IndexedModule<'_>,
     stage: ShaderStage,
     used: &HashSet<u32>,
     in_part: bool,
+    program_sets: &[u32],
 ) -> Result<Vec<Binding>, RefusedStage> {
     let stage = stage.facts();
     let pairs = SamplerPairs::of(module);
@@ -38,7 +39,7 @@ pub(super) fn bindings(
         let set = module.decoration_number(variable, Decoration::DescriptorSet);
         let binding = module.decoration_number(variable, Decoration::Binding);
         let (Some(set), Some(binding)) = (set, binding) else { continue };
-        if set != PASS_SET && !used.contains(&variable) {
+        if set != PASS_SET && !used.contains(&variable) || program_sets.contains(&set) {
             continue;
         }
         let Some(ty) = module.pointee(instruction) else { continue };
@@ -52,9 +53,7 @@ pub(super) fn bindings(
         };
         let length = length.filter(|_| kind.unbindable().is_none());
         if !stage.may_store && kind.is_written() {
-            let (name, stage) = (module.name(variable), stage.name);
-            let what = format!("`{name}` is written by a {stage} shader: not every device can; declare it `readonly`");
-            return Err(RefusedStage::named(name, what));
+            return Err(may_not_store(module.name(variable), stage.name));
         }
         let separate = kind.is_sampled() && element.is_some_and(|element| element.class.opcode == Op::TypeImage);
         bindings.push(Binding {
@@ -71,8 +70,7 @@ pub(super) fn bindings(
     bindings.sort_by_key(|it| (it.set, it.binding));
     join_pairs(&mut bindings);
     if let Some(far) = bindings.iter().find(|it| it.binding >= BINDINGS) {
-        let what = format!("`{}` at binding {}: bindings go up to {}", far.name, far.binding, BINDINGS - 1);
-        return Err(RefusedStage::named(&far.name, what));
+        return Err(too_far(&far.name, far.binding));
     }
     if let Some(pair) =
         bindings.windows(2).find(|pair| (pair[0].set, pair[0].binding) == (pair[1].set, pair[1].binding))
@@ -84,8 +82,31 @@ pub(super) fn bindings(
     Ok(bindings)
 }
 
+/// That a stage writes what it may not.
+pub(super) fn may_not_store(name: &str, stage: &str) -> RefusedStage {
+    let what = format!("`{name}` is written by a {stage} shader: not every device can; declare it `readonly`");
+    RefusedStage::named(name, what)
+}
+
+/// That a binding has too large a number.
+pub(super) fn too_far(name: &str, binding: u32) -> RefusedStage {
+    RefusedStage::named(name, format!("`{name}` at binding {binding}: bindings go up to {}", BINDINGS - 1))
+}
+
+/// Whether shaders may read, and may write, a storage image or block.
+pub(super) fn storage_access(module: &IndexedModule<'_>, variable: u32, block: Option<&Instruction>) -> (bool, bool) {
+    let lacks = |wanted| {
+        let whole = module.decoration(variable, wanted).is_none();
+        let Some(block) = block else { return whole };
+        let members = u32::try_from(block.operands.len()).unwrap_or(0);
+        let decorated = |member| module.member_decoration(block.result_id?, member, wanted);
+        whole && !(0..members).all(|member| decorated(member).is_some())
+    };
+    (lacks(Decoration::NonReadable), lacks(Decoration::NonWritable))
+}
+
 /// The name of a resource: of its variable, or of its block.
-fn name_of<'m>(module: &IndexedModule<'m>, variable: u32, instruction: &Instruction) -> &'m str {
+pub(super) fn name_of<'m>(module: &IndexedModule<'m>, variable: u32, instruction: &Instruction) -> &'m str {
     let own = module.name(variable);
     if own.is_empty() {
         module.pointee(instruction).and_then(|ty| ty.result_id).map_or("", |ty| module.name(ty))
@@ -128,12 +149,10 @@ fn kind(
         (Op::TypeImage, _) => match (image_shape(module, ty), ty.operands.get(5).and_then(number)) {
             (Some(ImageShape { dimension: Dimension::Buffer, .. }), _) => texel_buffer(),
             (Some(shape), Some(2)) => match texel_format(ty.operands.get(6)) {
-                Ok(format) => BindingKind::StorageImage {
-                    shape,
-                    format,
-                    readable: module.decoration(variable, Decoration::NonReadable).is_none(),
-                    writable: module.decoration(variable, Decoration::NonWritable).is_none(),
-                },
+                Ok(format) => {
+                    let (readable, writable) = storage_access(module, variable, None);
+                    BindingKind::StorageImage { shape, format, readable, writable }
+                }
                 Err(what) => other(&what, "declare it with the format of the pass's image, such as `layout(rgba16f)`"),
             },
             (Some(shape), _) if pairs.compares(variable) => BindingKind::ComparedDepth(shape),
@@ -149,12 +168,7 @@ fn kind(
             BindingKind::Sampler { images, compares }
         }
         (Op::TypeStruct, _) if module.is_storage_block(instruction, ty) => {
-            let members = u32::try_from(ty.operands.len()).unwrap_or(0);
-            let lacks = |wanted| {
-                let decorated = |member| module.member_decoration(ty.result_id?, member, wanted);
-                module.decoration(variable, wanted).is_none() && !(0..members).all(|member| decorated(member).is_some())
-            };
-            let (readable, writable) = (lacks(Decoration::NonReadable), lacks(Decoration::NonWritable));
+            let (readable, writable) = storage_access(module, variable, Some(ty));
             let bytes = ty.result_id.map_or(0, |ty| module.block_end(ty));
             BindingKind::StorageBlock { readable, writable, bytes }
         }
@@ -192,7 +206,9 @@ fn elements(of: BindingKind) -> BindingKind {
 }
 
 fn endless() -> BindingKind {
-    other("an array of unknown length", "write how many elements it has: `uniform sampler2D textures[64];`")
+    let written = "write how many elements it has: `uniform sampler2D textures[64];`";
+    let table = "only sets that the program binds itself have arrays of any length (`sets` of its interface)";
+    other("an array of unknown length", &format!("{written}; {table}"))
 }
 
 /// A binding that no pass can give, and the declaration to write instead.

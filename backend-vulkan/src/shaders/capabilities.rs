@@ -38,7 +38,7 @@ const WITHOUT_FORMAT: &[&str] = &["image1D", "image2D", "image3D", "imageCube", 
 const DOT_PRODUCTS: (&str, &[&str]) = ("shaderIntegerDotProduct", &["dotEXT", "dotPacked", "dotAccSat"]);
 
 /// Capabilities that every stage may need on devices that have the feature of this name, and how words of GLSL begin that need them.
-const OF_DEVICES: [(Capability, &str, &[&str]); 37] = [
+const OF_DEVICES: [(Capability, &str, &[&str]); 46] = [
     // Arrays of cubes.
     (Capability::SampledCubeArray, "imageCubeArray", &["samplerCubeArray", "usamplerCubeArray", "isamplerCubeArray"]),
     (Capability::ImageCubeArray, "imageCubeArray", &["imageCubeArray", "uimageCubeArray", "iimageCubeArray"]),
@@ -47,6 +47,32 @@ const OF_DEVICES: [(Capability, &str, &[&str]); 37] = [
     (Capability::StorageImageArrayDynamicIndexing, indexing::STORAGE, &[]),
     (Capability::SampledImageArrayNonUniformIndexing, "shaderSampledImageArrayNonUniformIndexing", &["nonuniformEXT"]),
     (Capability::StorageImageArrayNonUniformIndexing, "shaderStorageImageArrayNonUniformIndexing", &["nonuniformEXT"]),
+    (Capability::UniformBufferArrayDynamicIndexing, indexing::UNIFORM_BLOCKS, &[]),
+    (Capability::StorageBufferArrayDynamicIndexing, indexing::STORAGE_BLOCKS, &[]),
+    (Capability::UniformTexelBufferArrayDynamicIndexing, indexing::UNIFORM_TEXELS, &[]),
+    (Capability::StorageTexelBufferArrayDynamicIndexing, indexing::STORAGE_TEXELS, &[]),
+    (
+        Capability::UniformBufferArrayNonUniformIndexing,
+        "shaderUniformBufferArrayNonUniformIndexing",
+        &["nonuniformEXT"],
+    ),
+    (
+        Capability::StorageBufferArrayNonUniformIndexing,
+        "shaderStorageBufferArrayNonUniformIndexing",
+        &["nonuniformEXT"],
+    ),
+    (
+        Capability::UniformTexelBufferArrayNonUniformIndexing,
+        "shaderUniformTexelBufferArrayNonUniformIndexing",
+        &["nonuniformEXT"],
+    ),
+    (
+        Capability::StorageTexelBufferArrayNonUniformIndexing,
+        "shaderStorageTexelBufferArrayNonUniformIndexing",
+        &["nonuniformEXT"],
+    ),
+    // Arrays whose length isn't written: a set of the program's can have them.
+    (Capability::RuntimeDescriptorArray, "runtimeDescriptorArray", &["GL_EXT_nonuniform_qualifier", "nonuniformEXT"]),
     // Numbers that don't have 32 bits.
     (Capability::Float64, "shaderFloat64", &["double", "dvec", "dmat"]),
     (Capability::Int64, "shaderInt64", INT64),
@@ -115,21 +141,6 @@ const UNSUPPORTED: &[UnsupportedFeature] = &[
         &[Capability::MultiView],
         &["gl_ViewIndex"],
         "the index of a view: `eye_index` says which eye is drawn for, in each way to draw both",
-    ),
-    (
-        &[Capability::RuntimeDescriptorArray],
-        &["nonuniformEXT", "GL_EXT_nonuniform_qualifier"],
-        "an array of images whose length isn't written: write it, as in `uniform sampler2D textures[64];`",
-    ),
-    (
-        &[
-            Capability::UniformBufferArrayDynamicIndexing,
-            Capability::UniformBufferArrayNonUniformIndexing,
-            Capability::StorageBufferArrayDynamicIndexing,
-            Capability::StorageBufferArrayNonUniformIndexing,
-        ],
-        &["uniform", "buffer"],
-        "an array of blocks: write an array into one storage block",
     ),
     (
         &[Capability::StorageImageMultisample, Capability::ImageMSArray],

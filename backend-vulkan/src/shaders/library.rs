@@ -10,6 +10,7 @@ use super::layers;
 use super::macros::{Macros, PARTS, both_eyes, macros};
 use super::needs::Needed;
 use super::reflect::reflect;
+use super::set_layouts::SetLayouts;
 use super::stage_sources::{StageSource, StageSources, file_of};
 use super::stages::{CompiledStage, Spirv, changes_nothing, join};
 use super::text::{self, RefusedStage, Words};
@@ -21,8 +22,8 @@ use framewright_graph::base::{FilePath, Root};
 use framewright_graph::device::{Need, NeedKind};
 use framewright_graph::frame::{Draw, EyeForm};
 use framewright_graph::shader::{
-    Binding, DrawInterface, DrawInterfaces, DrawKind, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderName,
-    ShaderProblem, StageName, UnbindableResource, Variant,
+    Binding, DrawInterface, DrawInterfaces, DrawKind, PASS_SET, ProgramSet, ShaderInterface, ShaderInterfaces,
+    ShaderName, ShaderProblem, StageName, UnbindableResource, Variant,
 };
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -73,6 +74,10 @@ pub struct CompiledCompute {
 pub struct ShaderLibrary {
     sources: StageSources,
     draws: DrawInterfaces,
+    /// The numbers of the sets that the program binds itself.
+    program_sets: Vec<u32>,
+    /// Their layouts, as far as the program has made them.
+    set_layouts: SetLayouts,
     compilers: Compilers,
     stages: HashMap<StageKey, StageResult>,
 }
@@ -98,7 +103,9 @@ impl ShaderLibrary {
     ) -> ShaderLibrary {
         let draws = draws.into();
         let sources = StageSources::new(ShaderFiles { roots, shipped, modules: Vec::new() });
-        ShaderLibrary { sources, draws, compilers: Compilers::new(None, None), stages: HashMap::new() }
+        let program_sets = draws.sets().iter().map(|set| set.set).collect();
+        let (set_layouts, compilers) = (SetLayouts::default(), Compilers::new(None, None));
+        ShaderLibrary { sources, draws, program_sets, set_layouts, compilers, stages: HashMap::new() }
     }
 
     /// Has shaders compiled in a helper process, which bounds what they can take, and keeps them in its cache. Without a helper
@@ -122,6 +129,23 @@ impl ShaderLibrary {
     pub fn with_spirv(mut self, modules: impl IntoIterator<Item = (Arc<str>, Arc<[u8]>)>) -> ShaderLibrary {
         self.sources.files.modules.extend(modules);
         self
+    }
+
+    /// Takes layouts of the program's own for the sets that it binds itself.
+    #[must_use]
+    pub fn with_set_layouts(mut self, layouts: SetLayouts) -> ShaderLibrary {
+        self.set_layouts = layouts;
+        self
+    }
+
+    /// The layouts of the program's own.
+    pub(crate) fn set_layouts(&self) -> &SetLayouts {
+        &self.set_layouts
+    }
+
+    /// What the program brings along for its draws, and binds itself.
+    pub(crate) fn draws(&self) -> &DrawInterfaces {
+        &self.draws
     }
 
     /// The shader `name` when it draws `draw`, compiled as `variant` says.
@@ -269,7 +293,7 @@ impl ShaderLibrary {
         let StageSource { found, module, .. } = source;
         let (name, stage, macros, both, in_layers) = key;
         let stage = *stage;
-        let (compilers, files) = (&mut self.compilers, &self.sources.files);
+        let (compilers, files, program_sets) = (&mut self.compilers, &self.sources.files, &self.program_sets);
         let unsupported = |refused: RefusedStage| ShaderProblem::Unsupported { what: refused.placed(files, found) };
         if let (Some(module), StageName::Spirv { file, entry }) = (module, name) {
             let spirv = module.cut(file, stage, entry.as_deref())?;
@@ -294,7 +318,7 @@ impl ShaderLibrary {
             let refused = both.and_then(|both| {
                 let text = both.around_without_location(&found.text, stage);
                 let compiled = compilers.compile(&CompileJob { text, ..job.clone() }, found, files).ok()?;
-                reflect(stage, &compiled.spirv, parts, true).err()
+                reflect(stage, &compiled.spirv, parts, true, program_sets).err()
             });
             refused.map_or(problem, unsupported)
         })?;
@@ -315,7 +339,7 @@ impl ShaderLibrary {
         if let (Some(_), Verdict::Invalid(finding)) = (module, &verdict) {
             return Err(ShaderProblem::Unsupported { what: invalid(finding, files, found) });
         }
-        let reflected = reflect(stage, &spirv, tells_parts(macros), both.is_some());
+        let reflected = reflect(stage, &spirv, tells_parts(macros), both.is_some(), &self.program_sets);
         let mut reflected = reflected.map_err(unsupported)?;
         // A resource that no pass can give is refused later, in better words.
         let is_refused = |binding: &Binding| binding.kind.unbindable().is_some();
@@ -336,6 +360,9 @@ impl ShaderLibrary {
             if let Some(UnbindableResource { place, .. }) = binding.kind.unbindable_mut() {
                 *place = text::place(files, found, |word| word == binding.name);
             }
+        }
+        for resource in &mut reflected.interface.program {
+            resource.place = text::place(files, found, |word| word == resource.name);
         }
         if reflected.interface.discards || reflected.interface.masks_samples {
             let words = if reflected.interface.discards { DISCARDS } else { MASKS_SAMPLES };
@@ -392,6 +419,10 @@ impl ShaderInterfaces for ShaderLibrary {
 
     fn brought_along(&self, draw: Option<Draw>) -> DrawInterface {
         draw.map_or_else(|| self.draws.of_kind(DrawKind::Compute), |draw| self.draws.of(draw))
+    }
+
+    fn program_sets(&self) -> Vec<ProgramSet> {
+        self.draws.sets().to_vec()
     }
 
     fn custom_passes(&self) -> Option<Vec<Arc<str>>> {

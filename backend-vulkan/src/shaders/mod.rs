@@ -28,9 +28,11 @@ mod module_words;
 mod needs;
 mod place_names;
 mod precompiled_shaders;
+mod program_resources;
 mod reflect;
 mod rotation;
 mod sampler_pairs;
+mod set_layouts;
 mod spirv_cache;
 mod stage_sources;
 mod stages;
@@ -40,6 +42,7 @@ mod varyings;
 
 pub use library::{CompiledCompute, CompiledShader, ShaderLibrary};
 pub use precompiled_shaders::PrecompiledShaders;
+pub use set_layouts::SetLayouts;
 pub use stages::Spirv;
 
 pub(crate) use compile::compile;

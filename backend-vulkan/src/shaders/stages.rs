@@ -2,7 +2,7 @@
 
 use super::reflect::StageInterface;
 use super::text::RefusedStage;
-use framewright_graph::shader::{PASS_SET, ShaderInterface};
+use framewright_graph::shader::{PASS_SET, ProgramResource, ShaderInterface};
 use std::sync::Arc;
 
 /// SPIR-V of one stage, with the entry point `main`.
@@ -20,7 +20,8 @@ pub(super) struct CompiledStage {
 /// Whether a fragment stage leaves depth as it would be without one.
 pub(super) fn changes_nothing(fragment: &ShaderInterface) -> bool {
     let decides = fragment.discards || fragment.masks_samples || fragment.writes_depth;
-    !decides && !fragment.bindings.iter().any(|binding| binding.kind.is_written())
+    let writes = fragment.bindings.iter().any(|binding| binding.kind.is_written());
+    !decides && !writes && !fragment.program.iter().any(|it| it.writable)
 }
 
 /// The interface of both stages together.
@@ -76,6 +77,19 @@ pub(super) fn join(vertex: &CompiledStage, fragment: &CompiledStage) -> Result<S
                 );
                 return Err(RefusedStage::named(&other.name, what));
             }
+        }
+    }
+    for resource in &vertex.reflected.interface.program {
+        let same = |it: &&mut ProgramResource| {
+            (it.set, it.binding, &it.name, it.kind, it.count)
+                == (resource.set, resource.binding, &resource.name, resource.kind, resource.count)
+        };
+        match joined.program.iter_mut().find(same) {
+            Some(same) => {
+                same.stages |= resource.stages;
+                same.writable |= resource.writable;
+            }
+            None => joined.program.push(resource.clone()),
         }
     }
     joined.unturned.extend(

@@ -8,6 +8,7 @@ mod testing;
 
 mod adopted;
 mod allocations;
+mod bindless;
 mod blending;
 mod breadcrumbs;
 mod clear_values;
@@ -29,6 +30,7 @@ mod overlays;
 mod own_commands;
 mod own_pipelines;
 mod presenting;
+mod program_sets;
 mod queues;
 mod resolves;
 mod state;

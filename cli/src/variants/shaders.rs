@@ -2,7 +2,7 @@
 
 use framewright_graph::base::FilePath;
 use framewright_graph::frame::Draw;
-use framewright_graph::shader::{DrawInterface, ShaderInterface, ShaderInterfaces, ShaderProblem, Variant};
+use framewright_graph::shader::{DrawInterface, ProgramSet, ShaderInterface, ShaderInterfaces, ShaderProblem, Variant};
 use framewright_vulkan::ShaderLibrary;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -59,6 +59,10 @@ impl ShaderInterfaces for SharedShaders<'_> {
 
     fn brought_along(&self, draw: Option<Draw>) -> DrawInterface {
         self.library.lock().unwrap_or_else(PoisonError::into_inner).brought_along(draw)
+    }
+
+    fn program_sets(&self) -> Vec<ProgramSet> {
+        self.library.lock().unwrap_or_else(PoisonError::into_inner).program_sets()
     }
 
     fn custom_passes(&self) -> Option<Vec<Arc<str>>> {

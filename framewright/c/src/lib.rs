@@ -18,6 +18,7 @@ mod last_error;
 mod passes;
 mod renderer;
 mod scene;
+mod sets;
 mod status;
 mod texels;
 mod version;
@@ -50,6 +51,7 @@ pub use renderer::{
     framewright_renderer_set_rotation, framewright_renderer_set_scene, framewright_renderer_set_stereo,
 };
 pub use scene::{FramewrightScene, framewright_scene_free, framewright_scene_load, framewright_scene_mistake};
+pub use sets::{FramewrightSet, framewright_renderer_bind_set};
 pub use status::FramewrightStatus;
 pub use texels::{FramewrightTexels, framewright_renderer_read};
 pub use version::{FRAMEWRIGHT_ABI, framewright_abi, framewright_version};

@@ -7,6 +7,7 @@ use crate::device::FramewrightDevice;
 use crate::last_error::call;
 use crate::passes::{Callback, FramewrightRecord};
 use crate::scene::FramewrightScene;
+use crate::sets::{FramewrightSet, program_sets};
 use crate::status::{FramewrightStatus, Problem};
 use framewright::graph::base::Root;
 use framewright::{Facts, Renderer, RendererOptions, Rotation, Scene, SceneDrawSource, Stereo, Texels};
@@ -61,6 +62,10 @@ pub struct FramewrightRendererOptions {
     pub settings: FramewrightNames,
     /// Extensions that are applied to the pipeline: files, or paths of shipped ones.
     pub extensions: FramewrightNames,
+    /// Descriptor sets that the program makes itself, and binds by `framewright_renderer_bind_set`.
+    pub sets: *const FramewrightSet,
+    /// How many there are.
+    pub set_count: usize,
 }
 
 // SAFETY: it begins with its size, and has integers and pointers alone.
@@ -72,6 +77,8 @@ unsafe impl Structure for FramewrightRendererOptions {
         shaders: FramewrightNames::NONE,
         settings: FramewrightNames::NONE,
         extensions: FramewrightNames::NONE,
+        sets: std::ptr::null(),
+        set_count: 0,
     };
 }
 
@@ -210,6 +217,7 @@ pub unsafe extern "C" fn framewright_renderer_open(
             let folders = given.shaders.texts("shaders")?;
             options.shaders = folders.into_iter().map(|folder| Root::new(folder.into())).collect();
             options.settings = given.settings.texts("settings")?.into_iter().map(Into::into).collect();
+            (options.draws, options.set_layouts) = program_sets(given.sets, given.set_count, options.draws)?;
             options.files.extensions = given.extensions.texts("extensions")?.into_iter().map(Into::into).collect();
         }
         let renderer = Renderer::open(&device.device, pipeline, options)?;

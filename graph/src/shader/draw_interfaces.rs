@@ -1,6 +1,6 @@
-//! What a draw source brings along for every kind of draw, and the custom passes that its program records.
+//! What a draw source brings along for every kind of draw, the sets that its program binds, and the custom passes that it records.
 
-use super::{DrawInterface, DrawKind, interface_file};
+use super::{DrawInterface, DrawKind, ProgramSet, interface_file};
 use crate::base::{Diagnostic, Sources};
 use crate::frame::Draw;
 use std::collections::BTreeMap;
@@ -13,6 +13,8 @@ pub struct DrawInterfaces {
     /// Without those that bring nothing.
     draws: BTreeMap<DrawKind, DrawInterface>,
     custom: Option<Vec<Arc<str>>>,
+    /// In the order of their numbers.
+    sets: Vec<ProgramSet>,
 }
 
 impl DrawInterfaces {
@@ -46,6 +48,16 @@ impl DrawInterfaces {
         self
     }
 
+    /// With a set that the program makes and binds itself, in place of the one of its number. Passes of all kinds see it. In which stages
+    /// they do, its bindings say. It is bound by `Executor::bind_set` of the backend.
+    #[must_use]
+    pub fn with_set(mut self, set: ProgramSet) -> DrawInterfaces {
+        self.sets.retain(|known| known.set != set.set);
+        self.sets.push(set);
+        self.sets.sort_by_key(|set| set.set);
+        self
+    }
+
     /// The interface of a draw; an empty one where the pass has vertices of its own.
     #[must_use]
     pub fn of(&self, draw: Draw) -> DrawInterface {
@@ -61,6 +73,12 @@ impl DrawInterfaces {
     /// The kinds of draws that something is brought along for, with what that is.
     pub fn all(&self) -> impl Iterator<Item = (DrawKind, &DrawInterface)> {
         self.draws.iter().map(|(kind, interface)| (*kind, interface))
+    }
+
+    /// The sets that the program makes and binds itself, in the order of their numbers.
+    #[must_use]
+    pub fn sets(&self) -> &[ProgramSet] {
+        &self.sets
     }
 
     /// The names of custom passes that the program records; `None` if they aren't known, and any may be right.

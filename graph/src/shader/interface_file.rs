@@ -1,6 +1,8 @@
 //! The file of a draw source's interfaces.
 
-use super::{Attribute, DrawInterface, DrawInterfaces, DrawKind, DrawPart, SuppliedKind, SuppliedResource};
+use super::{
+    Attribute, DrawInterface, DrawInterfaces, DrawKind, DrawPart, SuppliedKind, SuppliedResource, interface_sets,
+};
 use crate::base::{Code, Diagnostic, Sources, Span};
 use crate::fields;
 use crate::frame::DrawList;
@@ -22,6 +24,7 @@ fields! {
         #[expect(dead_code, reason = "read before the others, so that a later version is said first")]
         version: Leaf<'t>,
         draws: Leaf<'t>,
+        sets: Option<Leaf<'t>>,
         custom: Option<Leaf<'t>>,
     }
 }
@@ -80,6 +83,7 @@ pub(super) fn write(interfaces: &DrawInterfaces) -> String {
         text += "            ],\n        ),\n";
     }
     text += "    ],\n";
+    interface_sets::write(interfaces.sets(), &mut text);
     if let Some(custom) = interfaces.custom_passes() {
         let _ = writeln!(text, "    custom: {custom:?},");
     }
@@ -147,6 +151,9 @@ fn whole(reader: &mut Reader, all: Leaf<'_>) -> Option<DrawInterfaces> {
             );
         }
         interfaces = kinds.into_iter().fold(interfaces, |all, kind| all.with(kind, interface.clone()));
+    }
+    if let Some(sets) = fields.sets {
+        interfaces = interface_sets::read(reader, sets, interfaces)?;
     }
     let Some(custom) = fields.custom else { return Some(interfaces) };
     let mut names = Names::new("custom pass", Code::CUSTOM_UNKNOWN);
@@ -247,7 +254,7 @@ impl<'t> Places<'t> {
     }
 }
 
-fn list<'t>(reader: &mut Reader, leaf: Option<Leaf<'t>>, what: &str) -> Vec<Leaf<'t>> {
+pub(super) fn list<'t>(reader: &mut Reader, leaf: Option<Leaf<'t>>, what: &str) -> Vec<Leaf<'t>> {
     leaf.and_then(|leaf| reader.list(leaf, what)).unwrap_or_default()
 }
 
@@ -276,7 +283,7 @@ fn supplied(reader: &mut Reader, leaf: Leaf<'_>) -> Option<SuppliedResource> {
 }
 
 /// A whole number that isn't negative.
-fn number(reader: &mut Reader, leaf: Leaf<'_>, what: &str) -> Option<u32> {
+pub(super) fn number(reader: &mut Reader, leaf: Leaf<'_>, what: &str) -> Option<u32> {
     let number = reader.integer(leaf)?;
     let small = u32::try_from(number).ok();
     if small.is_none() {

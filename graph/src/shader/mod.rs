@@ -6,10 +6,12 @@ mod draw_kind;
 mod element;
 mod given_names;
 mod interface_file;
+mod interface_sets;
 mod needs;
 mod param_type;
 mod place_names;
 mod problem;
+mod program_set;
 mod shader_name;
 mod vertex_layout;
 
@@ -31,6 +33,10 @@ pub use param_type::{ParamMisfit, ParamScalar, ParamType};
 pub use place_names::{
     GivenNames, PASS_SET, binding_name, binding_of, is_place, location_name, offset_name, offset_of,
 };
+pub use program_set::{
+    BindingFlags, DescriptorType, ProgramBinding, ProgramResource, ProgramSet, SetFault, bindings_of_read_sets,
+    set_needs,
+};
 pub use shader_name::{ShaderName, StageName};
 pub use vertex_layout::{LayoutFault, LocationLayout, VertexInput, VertexLayout};
 
@@ -39,6 +45,8 @@ pub use vertex_layout::{LayoutFault, LocationLayout, VertexInput, VertexLayout};
 pub struct ShaderInterface {
     /// Resources by set and binding.
     pub bindings: Vec<Binding>,
+    /// What it reads of the program's own sets.
+    pub program: Vec<ProgramResource>,
     /// Vertex attributes that the vertex stage declares.
     pub vertex_inputs: Vec<VertexInput>,
     /// Colour outputs of the fragment stage.
@@ -572,6 +580,11 @@ pub trait ShaderInterfaces {
     /// The interface of the draw source for `draw` (`None`: for compute shaders); an empty one where the pass has vertices of
     /// its own.
     fn brought_along(&self, draw: Option<Draw>) -> DrawInterface;
+
+    /// The sets that the program makes and binds itself.
+    fn program_sets(&self) -> Vec<ProgramSet> {
+        Vec::new()
+    }
 
     /// The names of custom passes that the program records; `None` if they aren't known, and any may be right.
     fn custom_passes(&self) -> Option<Vec<Arc<str>>> {

@@ -1,6 +1,6 @@
 //! How many resources a shader's pass binds, where not every device allows as many.
 
-use super::{BindingKind, PASS_SET, ShaderInterface, SuppliedKind, SuppliedResource};
+use super::{BindingKind, PASS_SET, ProgramBinding, ShaderInterface, SuppliedKind, SuppliedResource, binding_name};
 use crate::device::{Limit, Need, NeedKind};
 use crate::vulkan::Stages;
 
@@ -43,16 +43,18 @@ const COUNTED: [CountedKind; 5] = [
 
 /// The resources of a pass that are more than every device allows: of each kind and of all kinds with the pass's `targets`, where each
 /// element of an array counts. All stages together are held to what one may see. Resources that the draw source brings along count
-/// whether the shader reads them or not.
+/// whether the shader reads them or not. So do the bindings of the program's sets: `program` has them with the numbers of their sets.
 pub fn resource_needs<'s>(
     shader: &ShaderInterface,
     brought: impl Iterator<Item = &'s SuppliedResource> + Clone,
+    program: impl Iterator<Item = (u32, &'s ProgramBinding)> + Clone,
     targets: usize,
 ) -> Vec<Need> {
     let mut needs = Vec::new();
     let own = || shader.bindings.iter().filter(|it| it.set == PASS_SET);
     let counts = own().map(|it| u64::from(it.count())).chain(brought.clone().map(|it| u64::from(it.count)));
-    let all = counts.sum::<u64>().saturating_add(targets as u64);
+    let bound = program.clone().filter(|(_, it)| !it.flags.update_after_bind).map(|(_, it)| u64::from(it.count));
+    let all = counts.chain(bound).sum::<u64>().saturating_add(targets as u64);
     // Most passes have so few that no kind is worth a look.
     if all <= Limit::StageStorageBlocks.least() {
         return needs;
@@ -70,14 +72,18 @@ pub fn resource_needs<'s>(
         let brought = brought.clone().filter(|it| Some(it.kind) == supplied).map(|it| (&*it.name, it.count));
         let all = own.chain(brought);
         let count: u64 = all.clone().map(|(_, count)| u64::from(count)).sum();
-        let words = || {
-            let array = all.clone().max_by_key(|(_, count)| *count).filter(|(_, count)| *count > 1);
-            let array = array.map_or_else(String::new, |(name, count)| format!(", {count} of them as `{name}`"));
-            format!("{count} {what} are bound{array}")
-        };
         for limit in limits {
             let of_samplers = matches!(limit, Limit::StageSamplers | Limit::SetSamplers);
-            need(*limit, if of_samplers { count - separate + samplers } else { count }, &words);
+            let of_sets = || program.clone().map(|(set, it)| (set, it.binding, it.counts_for(*limit)));
+            let in_sets: u64 = of_sets().map(|(.., count)| count).sum();
+            let words = || {
+                let tables = of_sets().map(|(set, binding, count)| (binding_name(set, binding), count));
+                let named = all.clone().map(|(name, count)| (name.to_owned(), u64::from(count)));
+                let array = named.chain(tables).max_by_key(|(_, count)| *count).filter(|(_, count)| *count > 1);
+                let array = array.map_or_else(String::new, |(name, count)| format!(", {count} of them as `{name}`"));
+                format!("{} {what} are bound{array}", count + in_sets)
+            };
+            need(*limit, in_sets + if of_samplers { count - separate + samplers } else { count }, &words);
         }
     }
     need(Limit::StageResources, all, &|| format!("{all} resources and colour targets are bound"));
@@ -110,7 +116,7 @@ mod tests {
             SuppliedResource::new(2, 0, "textures", SuppliedKind::SampledImage).with_count(textures),
         ];
         let abilities = Abilities { device: "this device", limits: Some(limits), has: &|_| false };
-        let needs = resource_needs(&ShaderInterface::default(), brought.iter(), targets);
+        let needs = resource_needs(&ShaderInterface::default(), brought.iter(), [].into_iter(), targets);
         needs.iter().find_map(|need| need.unmet(&abilities)).unwrap_or_default()
     }
 
@@ -164,7 +170,7 @@ mod tests {
         let shader = ShaderInterface { bindings: (0..4).map(block).collect(), ..ShaderInterface::default() };
         let abilities = Abilities { device: "this device", limits: Some(&Limits::LEAST), has: &|_| false };
         let unmet = |targets| {
-            let needs = resource_needs(&shader, [].iter(), targets);
+            let needs = resource_needs(&shader, [].iter(), [].into_iter(), targets);
             needs.iter().find_map(|need| need.unmet(&abilities)).unwrap_or_default()
         };
         assert_eq!(unmet(0), "");

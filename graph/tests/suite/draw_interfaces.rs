@@ -2,7 +2,11 @@
 
 use framewright_graph::base::{self, Sources};
 use framewright_graph::frame::{Draw, DrawList};
-use framewright_graph::shader::{Attribute, DrawInterface, DrawInterfaces, DrawKind, SuppliedKind, SuppliedResource};
+use framewright_graph::shader::{
+    Attribute, BindingFlags, DescriptorType, DrawInterface, DrawInterfaces, DrawKind, ProgramBinding, ProgramSet,
+    SuppliedKind, SuppliedResource,
+};
+use framewright_graph::vulkan::Stages;
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 
@@ -231,4 +235,88 @@ fn a_list_decides_what_objects_bring() {
     let interfaces = DrawInterfaces::from(only);
     assert_eq!(interfaces.of(masked), engine(masked));
     assert_eq!(interfaces.of(Draw::Objects(DrawList::Opaque)), DrawInterface::default());
+}
+
+/// Sets that a program binds itself, as a file holds them (DO-5).
+const SETS: &str = r#"Interface(
+    version: 1,
+    draws: [
+    ],
+    sets: [
+        (
+            set: 2,
+            bindings: [
+                (binding: 0, kind: CombinedImageSampler, count: 1024, stages: [Fragment], flags: [PartiallyBound, UpdateAfterBind, VariableDescriptorCount]),
+            ],
+        ),
+        (
+            set: 3,
+            bindings: [
+                (binding: 0, kind: UniformBufferDynamic),
+                (binding: 4, kind: StorageBuffer, stages: [Vertex, Compute]),
+            ],
+        ),
+    ],
+)
+"#;
+
+#[test]
+fn sets_of_a_program_are_written_and_read_again() {
+    let flags = BindingFlags {
+        partially_bound: true,
+        update_after_bind: true,
+        update_unused_while_pending: false,
+        variable_count: true,
+    };
+    let table = ProgramBinding::new(0, DescriptorType::CombinedImageSampler).with_count(1024);
+    let table = table.with_stages(Stages::FRAGMENT_SHADER).with_flags(flags);
+    let frame = [
+        ProgramBinding::new(0, DescriptorType::UniformBufferDynamic),
+        ProgramBinding::new(4, DescriptorType::StorageBuffer)
+            .with_stages(Stages::VERTEX_SHADER | Stages::COMPUTE_SHADER),
+    ];
+    let interfaces =
+        DrawInterfaces::default().with_set(ProgramSet::new(3, frame)).with_set(ProgramSet::new(2, [table]));
+    assert_eq!(interfaces.to_ron(), SETS);
+    assert_eq!(read(SETS), Ok(interfaces));
+}
+
+#[test]
+fn every_mistake_in_a_set_of_a_program_is_told_at_its_place() {
+    let wrong = |old: &str, new: &str, place: &str, said: &str| {
+        assert!(SETS.contains(old), "{old}");
+        let shown = read(&SETS.replacen(old, new, 1)).expect_err("a mistake");
+        assert!(shown.contains(place) && shown.contains(said), "`{said}` at {place} is not in\n{shown}");
+    };
+    wrong("set: 2", "set: 0", "7:18", "set 0 can't be the program's: those are 1 to 3");
+    wrong("set: 2", "set: 4", "7:18", "set 4 can't be the program's");
+    wrong("set: 3", "set: 2", "13:18", "set 2 stands here twice");
+    wrong("set: 2", "set: -1", "7:18", "the number of the set can't be -1");
+    wrong("CombinedImageSampler", "Texture", "9:36", "a type of descriptors");
+    wrong("count: 1024", "count: 0", "9:17", "binding 0 has no descriptors; one is the least");
+    wrong("count: 1024", "count: 500001", "7:18", "500001 descriptors that are updated after they were bound");
+    wrong("stages: [Fragment]", "stages: []", "9:17", "binding 0 is for no stage");
+    wrong("[Fragment]", "[Pixel]", "9:80", "a stage");
+    wrong("PartiallyBound", "Partially", "9:99", "a flag");
+    wrong("binding: 4", "binding: 0", "16:17", "binding 0 stands here twice");
+    wrong("binding: 4", "binding: 256", "16:17", "bindings go up to 255");
+    wrong(
+        "UniformBufferDynamic",
+        "UniformBufferDynamic, flags: [UpdateAfterBind]",
+        "15:17",
+        "which can neither be updated after it was bound nor have a variable count",
+    );
+    wrong(
+        "UniformBufferDynamic",
+        "StorageBuffer, flags: [VariableDescriptorCount]",
+        "15:17",
+        "binding 0 has a variable count, as only the last one can",
+    );
+    wrong("UniformBufferDynamic", "UniformBufferDynamic, count: 9", "13:18", "every device that has such allows 8");
+    wrong(
+        "draws: [",
+        "draws: [(of: [Sky], supplied: [(name: \"sun\", set: 2, binding: 0, kind: UniformBlock)])",
+        "7:18",
+        "set 2 is the draw source's: it brings resources in it along for `Sky`",
+    );
 }

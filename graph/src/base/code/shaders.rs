@@ -156,4 +156,10 @@ room! {
     /// A sampler of its own (`sampler`, HLSL's `SamplerState`) takes filter and address from the images that it samples. Say the same
     /// `filter`, `mip_filter` and `address` of all of them.
     SAMPLER_SHARED = 828,
+
+    /// A shader reads a set of the program's otherwise than it is.
+    ///
+    /// The program tells the layout of sets that it binds itself: with `DrawInterfaces::with_set`, or in `sets` of an interface file
+    /// (`--interface`). A shader declares what is there: at its binding, of its type, with as many elements or fewer, in its stages.
+    PROGRAM_SET = 829,
 }

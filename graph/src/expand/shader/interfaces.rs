@@ -6,8 +6,8 @@ use crate::frame::{Draw, Remark};
 use crate::language::{self, Work};
 use crate::ron::Name;
 use crate::shader::{
-    Binding, BindingKind, DrawInterface, PARAMS, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem,
-    UnbindableResource, Variant,
+    Binding, BindingKind, DrawInterface, PARAMS, PASS_SET, ProgramSet, ShaderInterface, ShaderInterfaces,
+    ShaderProblem, UnbindableResource, Variant,
 };
 use crate::vulkan::{Dimension, ImageShape};
 use std::collections::HashSet;
@@ -23,6 +23,8 @@ pub(in crate::expand) struct CheckedShaders<'s> {
     seen: HashSet<(Arc<str>, Option<Draw>)>,
     /// What the draw source brings along for each draw that was asked about; `None`: for compute shaders.
     brought: Vec<(Option<Draw>, Arc<DrawInterface>)>,
+    /// The sets that the program binds itself.
+    program_sets: Vec<ProgramSet>,
     /// Shaders that have no interface, and why: one may draw several things.
     reported: Vec<(Arc<str>, ShaderProblem)>,
     /// The path of the file that names a shader, if it is unknown.
@@ -35,6 +37,7 @@ impl<'s> CheckedShaders<'s> {
     /// `sources` are the files that name the shaders.
     pub(in crate::expand) fn new(shaders: &'s mut dyn ShaderInterfaces, sources: &'s Sources) -> CheckedShaders<'s> {
         CheckedShaders {
+            program_sets: shaders.program_sets(),
             shaders,
             sources,
             seen: HashSet::new(),
@@ -137,6 +140,11 @@ impl<'s> CheckedShaders<'s> {
         let brought = Arc::new(self.shaders.brought_along(draw));
         self.brought.push((draw, brought.clone()));
         Some(brought)
+    }
+
+    /// As [`ShaderInterfaces::program_sets`].
+    pub(super) fn program_sets(&self) -> &[ProgramSet] {
+        &self.program_sets
     }
 
     /// As [`ShaderInterfaces::custom_passes`].

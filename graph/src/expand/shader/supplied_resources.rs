@@ -1,4 +1,4 @@
-//! A shader meets its draw source: vertex attributes, and the resources of sets from 1 on.
+//! A shader meets its draw source and its program: vertex attributes, and the resources of sets from 1 on.
 
 use super::interfaces::CheckedShaders;
 use crate::base::{Code, Diagnostic, OutsideChoice, suggestion};
@@ -8,7 +8,8 @@ use crate::frame::Draw;
 use crate::language;
 use crate::ron::Name;
 use crate::shader::{
-    Binding, DrawInterface, LayoutFault, PASS_SET, ShaderInterface, SuppliedResource, VertexLayout, resource_needs,
+    Binding, DrawInterface, LayoutFault, PASS_SET, ProgramResource, ProgramSet, ShaderInterface, SuppliedResource,
+    UnbindableResource, VertexLayout, bindings_of_read_sets, resource_needs, set_needs,
 };
 use std::sync::Arc;
 
@@ -32,6 +33,9 @@ pub(in crate::expand) fn check(
     for binding in interface.bindings.iter().filter(|binding| binding.set != PASS_SET) {
         resource(shader, binding, &brought.supplied, errors);
     }
+    for used in &interface.program {
+        of_program(shader, used, shaders.program_sets(), errors);
+    }
 }
 
 /// What the shader asks of the device, and the resources that its pass and the draw source bind for it.
@@ -46,7 +50,10 @@ pub(in crate::expand) fn needs(
     let brought = binds.then(|| shaders.brought_along(pass)).flatten();
     let supplied = brought.iter().flat_map(|brought| &brought.supplied);
     let mut needs = interface.needs.clone();
-    needs.append(&mut resource_needs(interface, supplied, pass.color.len()));
+    let sets = shaders.program_sets();
+    let program = bindings_of_read_sets(&interface.program, sets);
+    needs.append(&mut resource_needs(interface, supplied, program, pass.color.len()));
+    needs.append(&mut set_needs(&interface.program, sets));
     needs
 }
 
@@ -142,7 +149,9 @@ fn resource(shader: &Name, binding: &Binding, supplied: &[SuppliedResource], err
         errors.push(Diagnostic { help, ..unknown });
         return;
     };
-    if (there.set, there.binding) != (binding.set, binding.binding) {
+    if let Some(UnbindableResource { what, instead, .. }) = binding.kind.unbindable() {
+        errors.push(here(format!("{wanted} as {what}, which isn't supported")).help(instead));
+    } else if (there.set, there.binding) != (binding.set, binding.binding) {
         let message = format!("{wanted}, but `{name}` is at set {}, binding {}", there.set, there.binding);
         errors.push(
             here(message)
@@ -155,6 +164,14 @@ fn resource(shader: &Name, binding: &Binding, supplied: &[SuppliedResource], err
     } else if !there.is(binding) {
         errors.push(here(format!("{wanted} as something else than it is: {}", there.kind.words())));
     }
+}
+
+/// Reports what a shader reads of a set of the program's otherwise than it is.
+fn of_program(shader: &Name, used: &ProgramResource, sets: &[ProgramSet], errors: &mut Vec<Diagnostic>) {
+    let Some(set) = sets.iter().find(|set| set.set == used.set) else { return };
+    let Some(misfit) = set.misfit(used) else { return };
+    let message = format!("shader `{}` uses {}: {misfit}", shader.text, used.words());
+    errors.push(Diagnostic::new(Code::PROGRAM_SET, shader.span, message).choice(OutsideChoice::DrawInterfaces));
 }
 
 /// Reports a custom pass that the program doesn't record.

@@ -1,0 +1,106 @@
+//! Sets that the program makes and binds itself.
+
+use crate::base::{Error, stage_flags};
+use crate::gpu::{Gpu, LayoutBinding};
+use ash::vk;
+use framewright_graph::shader::{BindingFlags, DescriptorType, ProgramBinding, ProgramSet};
+
+/// A descriptor set of the program's.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RawSet(pub(crate) vk::DescriptorSet);
+
+impl RawSet {
+    /// Takes a set of the program's.
+    ///
+    /// # Safety
+    /// It must be of the device of all that it is bound to, have the layout that the program's [`ProgramSet`] tells, and live until the
+    /// last frame is done that it was bound in. Until then all that shaders read of it must be there, in the state that its descriptors
+    /// tell, and what is written to it must be allowed by its flags. The program makes the barriers: no Plan knows what is in it.
+    #[must_use]
+    pub unsafe fn new(set: vk::DescriptorSet) -> RawSet {
+        RawSet(set)
+    }
+}
+
+/// The sets that an executor binds for all passes that read them.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct ProgramSets(Vec<(u32, RawSet, Vec<u32>)>);
+
+impl ProgramSets {
+    /// No sets.
+    pub(crate) const NONE: &'static ProgramSets = &ProgramSets(Vec::new());
+
+    /// Has a set take the place of the one of its number.
+    pub(crate) fn bind(&mut self, number: u32, set: RawSet, offsets: &[u32]) {
+        self.unbind(number);
+        self.0.push((number, set, offsets.to_vec()));
+    }
+
+    /// Lets go of a set.
+    pub(crate) fn unbind(&mut self, number: u32) {
+        self.0.retain(|(known, ..)| *known != number);
+    }
+
+    /// Takes over sets of numbers that it has none of.
+    pub(crate) fn take_over(&mut self, before: &ProgramSets) {
+        let new = before.0.iter().filter(|(number, ..)| self.of(*number).is_none()).cloned().collect::<Vec<_>>();
+        self.0.extend(new);
+    }
+
+    /// The set of a number, with its dynamic offsets.
+    pub(crate) fn of(&self, number: u32) -> Option<(RawSet, &[u32])> {
+        self.0.iter().find(|(known, ..)| *known == number).map(|(_, set, offsets)| (*set, &offsets[..]))
+    }
+}
+
+/// The layout of a set of the program's, made as it says.
+pub(crate) fn program_layout(gpu: &Gpu, set: &ProgramSet) -> Result<vk::DescriptorSetLayout, Error> {
+    let binding = |it: &ProgramBinding| LayoutBinding {
+        binding: it.binding,
+        ty: descriptor_type(it.kind),
+        count: it.count,
+        stages: stage_flags(it.stages),
+        flags: binding_flags(it.flags),
+    };
+    gpu.set_layout(set.bindings.iter().map(binding).collect())
+}
+
+/// What each dynamic offset of a set must be a multiple of, in the order in which they are told.
+pub(crate) fn offset_alignments(gpu: &Gpu, set: &ProgramSet) -> Vec<u64> {
+    let limits = &gpu.limits;
+    let mut bindings: Vec<_> = set.bindings.iter().filter(|it| it.kind.is_dynamic()).collect();
+    bindings.sort_by_key(|it| it.binding);
+    let alignment = |it: &ProgramBinding| match it.kind {
+        DescriptorType::UniformBufferDynamic => limits.min_uniform_buffer_offset_alignment,
+        _ => limits.min_storage_buffer_offset_alignment,
+    };
+    bindings.iter().flat_map(|it| std::iter::repeat_n(alignment(it), it.count as usize)).collect()
+}
+
+fn descriptor_type(kind: DescriptorType) -> vk::DescriptorType {
+    use vk::DescriptorType as Is;
+    match kind {
+        DescriptorType::Sampler => Is::SAMPLER,
+        DescriptorType::CombinedImageSampler => Is::COMBINED_IMAGE_SAMPLER,
+        DescriptorType::SampledImage => Is::SAMPLED_IMAGE,
+        DescriptorType::StorageImage => Is::STORAGE_IMAGE,
+        DescriptorType::UniformTexelBuffer => Is::UNIFORM_TEXEL_BUFFER,
+        DescriptorType::StorageTexelBuffer => Is::STORAGE_TEXEL_BUFFER,
+        DescriptorType::UniformBuffer => Is::UNIFORM_BUFFER,
+        DescriptorType::StorageBuffer => Is::STORAGE_BUFFER,
+        DescriptorType::UniformBufferDynamic => Is::UNIFORM_BUFFER_DYNAMIC,
+        DescriptorType::StorageBufferDynamic => Is::STORAGE_BUFFER_DYNAMIC,
+    }
+}
+
+fn binding_flags(flags: BindingFlags) -> vk::DescriptorBindingFlags {
+    use vk::DescriptorBindingFlags as Flags;
+    let BindingFlags { partially_bound, update_after_bind, update_unused_while_pending, variable_count } = flags;
+    let all = [
+        (partially_bound, Flags::PARTIALLY_BOUND),
+        (update_after_bind, Flags::UPDATE_AFTER_BIND),
+        (update_unused_while_pending, Flags::UPDATE_UNUSED_WHILE_PENDING),
+        (variable_count, Flags::VARIABLE_DESCRIPTOR_COUNT),
+    ];
+    all.into_iter().filter(|(set, _)| *set).fold(Flags::empty(), |all, (_, flag)| all | flag)
+}

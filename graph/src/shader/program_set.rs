@@ -1,0 +1,423 @@
+//! Descriptor sets that the program makes and binds itself, as data, and what shaders read of them.
+
+use super::{BINDINGS, DrawInterfaces, PASS_SET, binding_name};
+use crate::device::{Limit, Need, NeedKind};
+use crate::vulkan::Stages;
+use std::collections::HashMap;
+
+/// The sets of a program are numbered below this: every device has as many.
+pub(super) const SETS: u32 = 4;
+/// Descriptors of one kind that every device allows in bindings that are updated after they were bound, where it has them at all.
+const MOST_UPDATED: u64 = 500_000;
+/// The same of uniform buffers.
+const MOST_UPDATED_UNIFORM: u64 = 12;
+
+/// A descriptor set that the program makes and binds itself, such as a table of all textures.
+///
+/// It is the same for all passes. What the Plan knows of it is its layout: images and buffers in it are the program's business, with
+/// their states and their barriers.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct ProgramSet {
+    /// Its number, 1 to 3.
+    pub set: u32,
+    /// Its bindings.
+    pub bindings: Vec<ProgramBinding>,
+}
+
+/// A binding of a program's set, as in `VkDescriptorSetLayoutBinding`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ProgramBinding {
+    /// Its number.
+    pub binding: u32,
+    /// The type of its descriptors.
+    pub kind: DescriptorType,
+    /// How many descriptors it has; of a variable count the most. Shaders declare as many, fewer, or an array of no written length.
+    pub count: u32,
+    /// The stages that may read it: vertex, fragment and compute shaders.
+    pub stages: Stages,
+    /// Vulkan's flags.
+    pub flags: BindingFlags,
+}
+
+/// What may be done with a binding's descriptors: `VkDescriptorBindingFlagBits`.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct BindingFlags {
+    /// Descriptors that no shader reads needn't be valid.
+    pub partially_bound: bool,
+    /// Descriptors may be written after the set was bound, until the frame is submitted.
+    pub update_after_bind: bool,
+    /// Descriptors that no shader reads may be written while frames are on their way.
+    pub update_unused_while_pending: bool,
+    /// The set says how many there are when it is allocated: the last binding only.
+    pub variable_count: bool,
+}
+
+/// Each type: Vulkan's name as files write it, how it is called, and the feature to write such descriptors after they were bound.
+macro_rules! descriptor_types {
+    ($($(#[doc = $doc:literal])* $name:ident, $words:literal, $updated:expr;)*) => {
+        /// The type of a descriptor: `VkDescriptorType`.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+        pub enum DescriptorType {
+            $($(#[doc = $doc])* $name,)*
+        }
+
+        impl DescriptorType {
+            /// All of them, by name.
+            pub const NAMED: &[(&'static str, DescriptorType)] = &[$((stringify!($name), DescriptorType::$name),)*];
+
+            /// The type in words.
+            #[must_use]
+            pub const fn words(self) -> &'static str {
+                match self {
+                    $(DescriptorType::$name => $words,)*
+                }
+            }
+
+            /// The feature to write such descriptors after they were bound; `None`: no device can.
+            const fn updated_after_bind(self) -> Option<&'static str> {
+                match self {
+                    $(DescriptorType::$name => $updated,)*
+                }
+            }
+        }
+    };
+}
+
+descriptor_types! {
+    /// A sampler by itself.
+    Sampler, "a sampler", Some(SAMPLED_UPDATED);
+    /// A sampled image with its sampler.
+    CombinedImageSampler, "a sampled image with its sampler", Some(SAMPLED_UPDATED);
+    /// A sampled image without a sampler.
+    SampledImage, "a sampled image without a sampler", Some(SAMPLED_UPDATED);
+    /// A storage image.
+    StorageImage, "a storage image", Some("descriptorBindingStorageImageUpdateAfterBind");
+    /// A texel buffer that is read.
+    UniformTexelBuffer, "a uniform texel buffer", Some("descriptorBindingUniformTexelBufferUpdateAfterBind");
+    /// A texel buffer that is read and written.
+    StorageTexelBuffer, "a storage texel buffer", Some("descriptorBindingStorageTexelBufferUpdateAfterBind");
+    /// A uniform block.
+    UniformBuffer, "a uniform block", Some("descriptorBindingUniformBufferUpdateAfterBind");
+    /// A storage block.
+    StorageBuffer, "a storage block", Some("descriptorBindingStorageBufferUpdateAfterBind");
+    /// A uniform block, whose offset is told when the set is bound.
+    UniformBufferDynamic, "a uniform block with a dynamic offset", None;
+    /// A storage block, whose offset is told when the set is bound.
+    StorageBufferDynamic, "a storage block with a dynamic offset", None;
+}
+
+const SAMPLED_UPDATED: &str = "descriptorBindingSampledImageUpdateAfterBind";
+
+/// Something in a program's set that a shader reads.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ProgramResource {
+    /// Its set.
+    pub set: u32,
+    /// Its binding.
+    pub binding: u32,
+    /// Its name in the shader.
+    pub name: String,
+    /// The type of descriptors that it declares; `None`: none of a program's set can be it.
+    pub kind: Option<DescriptorType>,
+    /// How many it declares: the elements of an array, else 1; `None`: an array of no written length.
+    pub count: Option<u32>,
+    /// Whether the shader may write it.
+    pub writable: bool,
+    /// The stages that read it.
+    pub stages: Stages,
+    /// File and line of its declaration, `FILE:LINE`, if they are known.
+    pub place: Option<String>,
+}
+
+/// A part of a program's sets that no device need be able to bind.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SetFault {
+    /// The number of the set in the list of sets.
+    pub set: usize,
+    /// The number of the binding in its list; `None`: the set as a whole.
+    pub binding: Option<usize>,
+    /// What is wrong, in words.
+    pub message: String,
+}
+
+impl ProgramSet {
+    /// A set of this number and these bindings.
+    #[must_use]
+    pub fn new(set: u32, bindings: impl Into<Vec<ProgramBinding>>) -> ProgramSet {
+        ProgramSet { set, bindings: bindings.into() }
+    }
+
+    /// How many dynamic offsets are told when it is bound.
+    #[must_use]
+    pub fn dynamic_offsets(&self) -> u32 {
+        self.bindings.iter().filter(|it| it.kind.is_dynamic()).map(|it| it.count).fold(0, u32::saturating_add)
+    }
+
+    /// Why a shader that reads `used` doesn't fit the set, in words; `None` if it fits.
+    #[must_use]
+    pub fn misfit(&self, used: &ProgramResource) -> Option<String> {
+        let Some(binding) = self.bindings.iter().find(|it| it.binding == used.binding) else {
+            let known: Vec<_> = self.bindings.iter().map(|it| it.binding.to_string()).collect();
+            return Some(format!("the program's set has no such binding; it has {}", known.join(", ")));
+        };
+        if !used.kind.is_some_and(|declared| binding.kind.is_declared(declared)) {
+            let declared = used.kind.map_or("something that no set of a program holds", DescriptorType::words);
+            return Some(format!("it is declared as {declared}, and is {}", binding.kind.words()));
+        }
+        if let Some(count) = used.count.filter(|count| *count > binding.count) {
+            return Some(format!("it is declared as an array of {count}, and has {}", binding.count));
+        }
+        let blind = used.stages.difference(binding.stages);
+        if !blind.is_empty() {
+            let (read, seen) = (stage_words(blind), stage_words(binding.stages));
+            return Some(format!("{read} shaders read it, and it is made for {seen} shaders"));
+        }
+        None
+    }
+
+    /// The features that a device must have to make it, for a shader that reads `used` of it.
+    fn needs(&self, used: &ProgramResource) -> impl Iterator<Item = Need> {
+        let place = used.place.clone().unwrap_or_default();
+        let features = self.bindings.iter().flat_map(ProgramBinding::features);
+        features.map(move |(name, what)| Need { kind: NeedKind::Feature { name, what }, place: place.as_str().into() })
+    }
+}
+
+impl ProgramBinding {
+    /// A binding of one descriptor, which all stages read.
+    #[must_use]
+    pub const fn new(binding: u32, kind: DescriptorType) -> ProgramBinding {
+        let flags = BindingFlags {
+            partially_bound: false,
+            update_after_bind: false,
+            update_unused_while_pending: false,
+            variable_count: false,
+        };
+        ProgramBinding { binding, kind, count: 1, stages: ALL_STAGES, flags }
+    }
+
+    /// An array of this many.
+    #[must_use]
+    pub const fn with_count(mut self, count: u32) -> ProgramBinding {
+        self.count = count;
+        self
+    }
+
+    /// For these stages.
+    #[must_use]
+    pub const fn with_stages(mut self, stages: Stages) -> ProgramBinding {
+        self.stages = stages;
+        self
+    }
+
+    /// With these flags.
+    #[must_use]
+    pub const fn with_flags(mut self, flags: BindingFlags) -> ProgramBinding {
+        self.flags = flags;
+        self
+    }
+
+    /// The features that its flags need, with what needs them.
+    fn features(&self) -> impl Iterator<Item = (&'static str, &'static str)> {
+        let BindingFlags { partially_bound, update_after_bind, update_unused_while_pending, variable_count } =
+            self.flags;
+        let updated = self.kind.updated_after_bind().filter(|_| update_after_bind);
+        let flag = |set: bool, name, what| set.then_some((name, what));
+        [
+            updated.map(|name| (name, "a binding of the program's set that is updated after it was bound")),
+            flag(
+                partially_bound,
+                "descriptorBindingPartiallyBound",
+                "a binding of the program's set that is partially bound",
+            ),
+            flag(
+                update_unused_while_pending,
+                "descriptorBindingUpdateUnusedWhilePending",
+                "a binding of the program's set that is updated while frames are on their way",
+            ),
+            flag(
+                variable_count,
+                "descriptorBindingVariableDescriptorCount",
+                "a binding of the program's set that has a variable count",
+            ),
+        ]
+        .into_iter()
+        .flatten()
+    }
+
+    /// How many of its descriptors count for a limit. Those that are updated after they were bound have limits of their own.
+    pub(super) fn counts_for(&self, limit: Limit) -> u64 {
+        let counts = !self.flags.update_after_bind && self.kind.limits().contains(&limit);
+        if counts { self.count.into() } else { 0 }
+    }
+
+    /// What is wrong with it by itself.
+    fn fault(&self) -> Option<String> {
+        let ProgramBinding { binding, kind, count, stages, flags } = *self;
+        if binding >= BINDINGS {
+            return Some(format!("binding {binding}: bindings go up to {}", BINDINGS - 1));
+        }
+        if count == 0 {
+            return Some(format!("binding {binding} has no descriptors; one is the least"));
+        }
+        if stages.is_empty() || !ALL_STAGES.contains(stages) {
+            return Some(format!("binding {binding} is for no stage; there are vertex, fragment and compute shaders"));
+        }
+        if kind.is_dynamic() && (flags.update_after_bind || flags.variable_count) {
+            let what = "can neither be updated after it was bound nor have a variable count";
+            return Some(format!("binding {binding} is {}, which {what}", kind.words()));
+        }
+        None
+    }
+}
+
+impl DescriptorType {
+    /// Whether its offset is told when the set is bound.
+    #[must_use]
+    pub const fn is_dynamic(self) -> bool {
+        matches!(self, DescriptorType::UniformBufferDynamic | DescriptorType::StorageBufferDynamic)
+    }
+
+    /// Whether a shader that declares `declared` reads this.
+    #[must_use]
+    pub fn is_declared(self, declared: DescriptorType) -> bool {
+        use DescriptorType as Is;
+        let also: &[DescriptorType] = match self {
+            Is::CombinedImageSampler => &[Is::SampledImage, Is::Sampler],
+            Is::UniformBufferDynamic => &[Is::UniformBuffer],
+            Is::StorageBufferDynamic => &[Is::StorageBuffer],
+            _ => &[],
+        };
+        self == declared || also.contains(&declared)
+    }
+
+    /// The limits that its descriptors count for.
+    const fn limits(self) -> &'static [Limit] {
+        use DescriptorType as Is;
+        match self {
+            Is::Sampler => &[Limit::StageSamplers, Limit::SetSamplers],
+            Is::CombinedImageSampler => {
+                &[Limit::StageSamplers, Limit::SetSamplers, Limit::StageSampledImages, Limit::SetSampledImages]
+            }
+            Is::SampledImage | Is::UniformTexelBuffer => &[Limit::StageSampledImages, Limit::SetSampledImages],
+            Is::StorageImage | Is::StorageTexelBuffer => &[Limit::StageStorageImages, Limit::SetStorageImages],
+            Is::UniformBuffer | Is::UniformBufferDynamic => &[Limit::StageUniformBlocks, Limit::SetUniformBlocks],
+            Is::StorageBuffer | Is::StorageBufferDynamic => &[Limit::StageStorageBlocks, Limit::SetStorageBlocks],
+        }
+    }
+}
+
+impl DrawInterfaces {
+    /// All that is wrong with the sets of the program: what not every device can bind, or where a draw source has its own.
+    #[must_use]
+    pub fn set_faults(&self) -> Vec<SetFault> {
+        let mut faults = Vec::new();
+        for (at, (number, set)) in self.sets().iter().map(|it| (it.set, it)).enumerate() {
+            let mut whole = |message| faults.push(SetFault { set: at, binding: None, message });
+            if number == PASS_SET || number >= SETS {
+                whole(format!("set {number} can't be the program's: those are 1 to {}", SETS - 1));
+            }
+            let brings = self.all().find(|(_, it)| it.supplied.iter().any(|supplied| supplied.set == number));
+            if let Some((kind, _)) = brings {
+                whole(format!("set {number} is the draw source's: it brings resources in it along for `{kind}`"));
+            }
+            let mut seen = HashMap::new();
+            let last = set.bindings.iter().map(|it| it.binding).max();
+            let updated = set.bindings.iter().any(|it| it.flags.update_after_bind);
+            for (number, it) in set.bindings.iter().enumerate() {
+                let twice = seen.insert(it.binding, number).is_some();
+                let message = if let Some(message) = it.fault() {
+                    message
+                } else if twice {
+                    format!("binding {} stands here twice", it.binding)
+                } else if it.flags.variable_count && Some(it.binding) != last {
+                    format!("binding {} has a variable count, as only the last one can", it.binding)
+                } else if it.kind.is_dynamic() && updated {
+                    let what = "which a set has not if some of it is updated after it was bound";
+                    format!("binding {} is {}, {what}", it.binding, it.kind.words())
+                } else {
+                    continue;
+                };
+                faults.push(SetFault { set: at, binding: Some(number), message });
+            }
+        }
+        if faults.is_empty() {
+            faults.extend(self.too_many());
+        }
+        faults
+    }
+
+    /// More descriptors in all sets than every device allows, where no field of a profile tells how many it allows.
+    fn too_many(&self) -> Option<SetFault> {
+        use DescriptorType as Is;
+        let all = || self.sets().iter().flat_map(|set| &set.bindings);
+        let count = |counts: &dyn Fn(&ProgramBinding) -> bool| {
+            all().filter(|it| counts(it)).map(|it| u64::from(it.count)).fold(0, u64::saturating_add)
+        };
+        let updated = |it: &ProgramBinding| it.flags.update_after_bind;
+        let uniform = |it: &ProgramBinding| it.kind == Is::UniformBuffer;
+        let rules: [(&str, &dyn Fn(&ProgramBinding) -> bool, u64); 4] = [
+            ("uniform blocks with dynamic offsets", &|it| it.kind == Is::UniformBufferDynamic, 8),
+            ("storage blocks with dynamic offsets", &|it| it.kind == Is::StorageBufferDynamic, 4),
+            (
+                "uniform blocks that are updated after they were bound",
+                &|it| updated(it) && uniform(it),
+                MOST_UPDATED_UNIFORM,
+            ),
+            ("descriptors that are updated after they were bound", &|it| updated(it), MOST_UPDATED),
+        ];
+        rules.iter().find_map(|(what, counts, most)| {
+            let found = count(counts);
+            let set = self.sets().iter().position(|set| set.bindings.iter().any(counts))?;
+            let message = format!("the program's sets have {found} {what}; every device that has such allows {most}");
+            (found > *most).then_some(SetFault { set, binding: None, message })
+        })
+    }
+}
+
+/// What shaders ask of a device because of the program's sets that they read. Each feature counts once.
+pub fn set_needs(used: &[ProgramResource], sets: &[ProgramSet]) -> Vec<Need> {
+    let mut needs: Vec<Need> = Vec::new();
+    let of_sets = used.iter().filter_map(|used| Some((used, sets.iter().find(|set| set.set == used.set)?)));
+    for need in of_sets.flat_map(|(used, set)| set.needs(used)) {
+        if !needs.iter().any(|known| known.kind == need.kind) {
+            needs.push(need);
+        }
+    }
+    needs
+}
+
+/// The bindings of the sets that a shader reads anything of, with the numbers of their sets.
+pub fn bindings_of_read_sets<'s>(
+    used: &'s [ProgramResource],
+    sets: &'s [ProgramSet],
+) -> impl Iterator<Item = (u32, &'s ProgramBinding)> + Clone {
+    let read = sets.iter().filter(|set| used.iter().any(|it| it.set == set.set));
+    read.flat_map(|set| set.bindings.iter().map(|binding| (set.set, binding)))
+}
+
+impl ProgramResource {
+    /// The resource in words, with its place in the shader.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let ProgramResource { set, binding, name, place, .. } = self;
+        let at = place.as_ref().map_or_else(String::new, |place| format!(" ({place})"));
+        if *name == binding_name(*set, *binding) {
+            return format!("set {set}, binding {binding}{at}");
+        }
+        format!("`{name}`, set {set}, binding {binding}{at}")
+    }
+}
+
+/// The stages of a binding, as files name them.
+pub(super) const STAGES: [(&str, Stages); 3] =
+    [("Vertex", Stages::VERTEX_SHADER), ("Fragment", Stages::FRAGMENT_SHADER), ("Compute", Stages::COMPUTE_SHADER)];
+
+/// All of them.
+pub(super) const ALL_STAGES: Stages =
+    Stages::VERTEX_SHADER.union(Stages::FRAGMENT_SHADER).union(Stages::COMPUTE_SHADER);
+
+fn stage_words(stages: Stages) -> String {
+    let named = STAGES.iter().filter(|(_, stage)| stages.contains(*stage)).map(|(name, _)| name.to_lowercase());
+    named.collect::<Vec<_>>().join(" and ")
+}
