@@ -152,7 +152,7 @@ impl ShaderLibrary {
                 return Err(ShaderProblem::Unsupported { what: placed.unwrap_or_default() });
             }
         };
-        if ShaderName::is_spirv(name) {
+        if ShaderName::has_file(name) {
             interface.take_names(&variant.given);
         }
         let fills = !draw.is_full_screen() || usual_vertices;
@@ -160,7 +160,7 @@ impl ShaderLibrary {
         let spirv = vertex.spirv.clone();
         if variant.depth_only && changes_nothing(&fragment.reflected.interface) {
             let (mut interface, input_attachments) = (vertex.reflected.interface.clone(), Vec::new());
-            if ShaderName::is_spirv(name) {
+            if ShaderName::has_file(name) {
                 interface.take_names(&variant.given);
             }
             // One driver takes no notice of clip distances where there is no fragment stage: docs/drivers.md.
@@ -191,7 +191,7 @@ impl ShaderLibrary {
         let stage = self.stage(&name, COMPUTE, variant)?;
         let stage = stage.ok_or_else(|| self.sources.lacking(&name, COMPUTE))?;
         let mut interface = stage.reflected.interface.clone();
-        if name.is_spirv() {
+        if name.is_file() {
             interface.take_names(&variant.given);
         }
         Ok(CompiledCompute { compute: stage.spirv.clone(), interface })
@@ -209,11 +209,11 @@ impl ShaderLibrary {
             ShaderName::Whole(name @ StageName::Glsl(_)) => {
                 Ok(self.stage(name, VERTEX, variant)?.filter(|own| own.shipped == shipped))
             }
-            ShaderName::Whole(StageName::Spirv { file, .. }) => {
+            ShaderName::Whole(StageName::File { file, .. }) => {
                 let source = self.sources.source(file)?;
                 let has = source.and_then(|it| it.module.as_ref().map(|module| module.has(VERTEX)));
                 match has {
-                    Some(true) => self.stage(&StageName::Spirv { file: file.clone(), entry: None }, VERTEX, variant),
+                    Some(true) => self.stage(&StageName::File { file: file.clone(), entry: None }, VERTEX, variant),
                     _ => Ok(None),
                 }
             }
@@ -230,7 +230,7 @@ impl ShaderLibrary {
         let file = draw.usual_vertex_shader();
         let what = || match name {
             StageName::Glsl(name) => format!("no vertex shader: neither `{name}.vert` nor `{file}` was found"),
-            StageName::Spirv { .. } => format!("no vertex shader: `{file}` wasn't found"),
+            StageName::File { .. } => format!("no vertex shader: `{file}` wasn't found"),
         };
         let usual = match FilePath::of_text(&name.to_string()) {
             FilePath::Own(_) => FilePath::Own(file.into()),
@@ -271,7 +271,7 @@ impl ShaderLibrary {
         let stage = *stage;
         let (compilers, files) = (&mut self.compilers, &self.sources.files);
         let unsupported = |refused: RefusedStage| ShaderProblem::Unsupported { what: refused.placed(files, found) };
-        if let (Some(module), StageName::Spirv { file, entry }) = (module, name) {
+        if let (Some(module), StageName::File { file, entry }) = (module, name) {
             let spirv = module.cut(file, stage, entry.as_deref())?;
             let counts = both.is_some_and(BothEyes::counts_instances) && stage.facts().places_vertices;
             if counts || both.is_some() && !in_layers.is_empty() {

@@ -43,7 +43,7 @@ impl StageSources {
 
     fn find_source(&self, file: &str) -> Result<Option<Arc<StageSource>>, ShaderProblem> {
         let path = FilePath::of_text(file);
-        let (found, module) = if StageName::of_text(file).is_spirv() {
+        let (found, module) = if StageName::of_text(file).is_file() {
             let Some((found, bytes)) = self.files.find_module(&path)? else { return Ok(None) };
             let bad = |what: String| ShaderProblem::BadModule { what: format!("{}: {what}", found.shown) };
             let module = ModuleFile::read(&bytes).map_err(bad)?;
@@ -58,7 +58,7 @@ impl StageSources {
 
     /// As [`super::ShaderLibrary::own_files`].
     pub(super) fn own_files(&self, from: &FilePath, name: &str) -> Vec<Vec<u8>> {
-        if let StageName::Spirv { file, .. } = StageName::of_text(name) {
+        if let StageName::File { file, .. } = StageName::of_text(name) {
             let found = |place: FilePath| self.files.find_module(&place).ok().flatten().map(|(_, bytes)| bytes);
             let beside =
                 from.beside(&file).ok().filter(|it| it.folder().is_empty() || self.files.may_read(it.folder()));
@@ -93,11 +93,11 @@ impl StageSources {
     ) -> Result<Option<StageName>, ShaderProblem> {
         let (file, entry) = match name {
             StageName::Glsl(name) => (name, None),
-            StageName::Spirv { file, entry } => (file, entry.clone()),
+            StageName::File { file, entry } => (file, entry.clone()),
         };
         let named = |file: &str| match name {
             StageName::Glsl(_) => StageName::Glsl(file.into()),
-            StageName::Spirv { .. } => StageName::Spirv { file: file.into(), entry: entry.clone() },
+            StageName::File { .. } => StageName::File { file: file.into(), entry: entry.clone() },
         };
         let none = |_: NoFile| ShaderProblem::Unsupported { what: format!("`{file}` is no name of a shader") };
         let beside = match from {
@@ -122,7 +122,7 @@ impl StageSources {
         let looked_in = self.files.places(from);
         let known = match name {
             StageName::Glsl(_) => self.files.known_shaders(from, stage.facts().ending),
-            StageName::Spirv { .. } => {
+            StageName::File { .. } => {
                 self.files.known_shaders(from, ".spv").into_iter().map(|name| name + ".spv").collect()
             }
         };
@@ -134,6 +134,6 @@ impl StageSources {
 pub(super) fn file_of(name: &StageName, stage: ShaderStage) -> String {
     match name {
         StageName::Glsl(name) => stage.file_of(name),
-        StageName::Spirv { file, .. } => file.to_string(),
+        StageName::File { file, .. } => file.to_string(),
     }
 }
