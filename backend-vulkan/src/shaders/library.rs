@@ -5,12 +5,14 @@ use super::colors;
 use super::compilers::Compilers;
 use super::coverage::{DISCARDS, MASKS_SAMPLES};
 use super::eyes::{self, BothEyes};
+use super::file_stages::FileStage;
 use super::files::{ShaderFiles, SourceFile};
 use super::layers;
 use super::macros::{Macros, PARTS, both_eyes, macros};
 use super::needs::Needed;
 use super::reflect::reflect;
-use super::stage_sources::{StageSource, StageSources, file_of};
+use super::shader_compilers::ShaderCompilers;
+use super::stage_sources::{StageCode, StageSource, StageSources, file_of};
 use super::stages::{CompiledStage, Spirv, changes_nothing, join};
 use super::text::{self, RefusedStage, Words};
 use super::validator::judge;
@@ -106,7 +108,8 @@ impl ShaderLibrary {
     #[must_use]
     pub fn with_helper(self, helper: &Helper) -> ShaderLibrary {
         let precompiled = self.compilers.precompiled.clone();
-        ShaderLibrary { compilers: Compilers::new(Some(helper), precompiled), ..self }
+        let compilers = Compilers { commands: self.compilers.commands, ..Compilers::new(Some(helper), precompiled) };
+        ShaderLibrary { compilers, ..self }
     }
 
     /// Takes compiled stages from a folder; `None`: from none. A program without the feature `shader-compiler`, and without a helper
@@ -114,6 +117,13 @@ impl ShaderLibrary {
     #[must_use]
     pub fn with_precompiled(mut self, precompiled: Option<PrecompiledShaders>) -> ShaderLibrary {
         self.compilers.precompiled = precompiled;
+        self
+    }
+
+    /// Has HLSL, Slang and WGSL compiled by commands.
+    #[must_use]
+    pub fn with_compilers(mut self, compilers: ShaderCompilers) -> ShaderLibrary {
+        self.compilers.commands = compilers;
         self
     }
 
@@ -211,10 +221,10 @@ impl ShaderLibrary {
             }
             ShaderName::Whole(StageName::File { file, .. }) => {
                 let source = self.sources.source(file)?;
-                let has = source.and_then(|it| it.module.as_ref().map(|module| module.has(VERTEX)));
+                let has = source.is_some_and(|it| matches!(&it.code, StageCode::Module(module) if module.has(VERTEX)));
                 match has {
-                    Some(true) => self.stage(&StageName::File { file: file.clone(), entry: None }, VERTEX, variant),
-                    _ => Ok(None),
+                    true => self.stage(&StageName::File { file: file.clone(), entry: None }, VERTEX, variant),
+                    false => Ok(None),
                 }
             }
         }
@@ -266,13 +276,14 @@ impl ShaderLibrary {
 
     /// The SPIR-V of a stage, of the file's or compiled.
     fn spirv_of(&mut self, source: &StageSource, key: &StageKey) -> Result<CompilerAnswer, ShaderProblem> {
-        let StageSource { found, module, .. } = source;
+        let StageSource { found, .. } = source;
         let (name, stage, macros, both, in_layers) = key;
         let stage = *stage;
         let (compilers, files) = (&mut self.compilers, &self.sources.files);
         let unsupported = |refused: RefusedStage| ShaderProblem::Unsupported { what: refused.placed(files, found) };
-        if let (Some(module), StageName::File { file, entry }) = (module, name) {
-            let spirv = module.cut(file, stage, entry.as_deref())?;
+        if let StageName::File { file, entry } = name {
+            let wanted = FileStage { file, entry: entry.as_deref(), stage, macros };
+            let spirv = wanted.compiled(source, compilers, files)?;
             let counts = both.is_some_and(BothEyes::counts_instances) && stage.facts().places_vertices;
             if counts || both.is_some() && !in_layers.is_empty() {
                 return Err(unsupported(NOT_FOR_BOTH_EYES.to_owned().into()));
@@ -282,7 +293,14 @@ impl ShaderLibrary {
         }
         let parts = tells_parts(macros);
         let text = both.map_or_else(|| found.text.clone(), |both| both.around(&found.text, stage));
-        let job = CompileJob { stage, shown: found.shown.clone(), text, macros: macros.clone() };
+        let job = CompileJob {
+            stage,
+            language: None,
+            entry: None,
+            shown: found.shown.clone(),
+            text,
+            macros: macros.clone(),
+        };
         let answer = compilers.compile(&job, found, files).map_err(|problem| {
             // A location of the library's own in the text is refused as in the modes in which it compiles.
             let both = both.filter(|both| both.counts_instances());
@@ -301,13 +319,13 @@ impl ShaderLibrary {
 
     fn compile_stage(&mut self, source: &StageSource, key: &StageKey) -> StageResult {
         let CompilerAnswer { spirv, verdict } = self.spirv_of(source, key)?;
-        let StageSource { found, mentioned, module } = source;
+        let StageSource { found, mentioned, code } = source;
         let (_, stage, macros, both, in_layers) = key;
         let stage = *stage;
         let files = &self.sources.files;
         let unsupported = |refused: RefusedStage| ShaderProblem::Unsupported { what: refused.placed(files, found) };
         // A stranger's module is judged before anything is read off it.
-        if let (Some(_), Verdict::Invalid(finding)) = (module, &verdict) {
+        if let (true, Verdict::Invalid(finding)) = (code.is_foreign(), &verdict) {
             return Err(ShaderProblem::Unsupported { what: invalid(finding, files, found) });
         }
         let reflected = reflect(stage, &spirv, tells_parts(macros), both.is_some());
@@ -395,7 +413,7 @@ impl ShaderInterfaces for ShaderLibrary {
 }
 
 /// Why SPIR-V isn't used in a draw for both eyes.
-const NOT_FOR_BOTH_EYES: &str = "it is drawn for both eyes at once, and SPIR-V isn't told which eye it draws for: draw each eye by \
+const NOT_FOR_BOTH_EYES: &str = "it is drawn for both eyes at once, and only GLSL is told which eye it draws for: draw each eye by \
     itself (`multi-pass`), or write it in GLSL";
 
 /// Whether push constants tell a stage which parts of images are in use.
