@@ -72,4 +72,4 @@ pub use record::{
     Recorder, StepReport,
 };
 pub use resources::{BindGroup, Buffer, BufferUsage, DynamicBuffer, Resource, Texture};
-pub use shaders::{PrecompiledShaders, ShaderLibrary};
+pub use shaders::{BadCompiler, PrecompiledShaders, ShaderCompilers, ShaderLibrary};

@@ -59,7 +59,7 @@ pub use framewright_vulkan::{
     BindGroup, Buffer, BufferUsage, CullMode, CustomImage, CustomRecorder, Device, DeviceOptions, DispatchRecorder,
     DrawSource, DynamicBuffer, Executor, ExecutorOptions, FrameReport, FrontFace, Helper, IndexType, Overlay,
     PrecompiledShaders, PresentMode, Presentation, Recorder, Resource, SamplerDescriptor, ScopeFormats, SemaphorePoint,
-    ShaderLibrary, Submission, Surface, Swapchain, SwapchainOptions, Texels, Texture,
+    ShaderCompilers, ShaderLibrary, Submission, Surface, Swapchain, SwapchainOptions, Texels, Texture,
 };
 pub use options::RendererOptions;
 pub use pipeline::{Pipeline, PlannedFrame};

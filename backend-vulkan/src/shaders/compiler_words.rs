@@ -29,7 +29,7 @@ fn message(complaint: &Complaint<'_>, files: &[&SourceFile]) -> Option<ShaderMes
     let Complaint { file, line: number, column, words } = complaint;
     let is = |known: &&&SourceFile| {
         let file = file.strip_prefix("./").unwrap_or(file);
-        known.shown == **file || known.path.path() == file || known.shown.strip_prefix("./") == Some(file)
+        known.shown == file || known.path.path() == file || known.shown.strip_prefix("./") == Some(file)
     };
     let file = files.iter().find(is)?;
     let line = file.text.lines().nth(number.checked_sub(1)? as usize)?;

@@ -108,7 +108,8 @@ impl ShaderLibrary {
     #[must_use]
     pub fn with_helper(self, helper: &Helper) -> ShaderLibrary {
         let precompiled = self.compilers.precompiled.clone();
-        let compilers = Compilers { commands: self.compilers.commands, ..Compilers::new(Some(helper), precompiled) };
+        let mut compilers = Compilers::new(Some(helper), precompiled);
+        compilers.commands = self.compilers.commands;
         ShaderLibrary { compilers, ..self }
     }
 

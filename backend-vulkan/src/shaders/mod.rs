@@ -30,6 +30,7 @@ mod module_words;
 mod needs;
 mod place_names;
 mod precompiled_shaders;
+mod push_constants;
 mod reflect;
 mod registers;
 mod rotation;

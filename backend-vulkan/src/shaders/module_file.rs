@@ -4,7 +4,7 @@
 //! reach, and all that a pass gives has a name. So nothing behind here knows of such files.
 
 use super::module::id;
-use super::{module_capabilities, module_checks, module_words, place_names, registers};
+use super::{module_capabilities, module_checks, module_words, place_names, push_constants, registers};
 use crate::base::ShaderStage;
 use framewright_graph::shader::ShaderProblem;
 use rspirv::binary::Assemble;
@@ -101,6 +101,7 @@ impl ModuleFile {
         if self.module.entry_points.len() > 1 {
             module_capabilities::leave_out_foreign(&mut module);
         }
+        push_constants::as_params(&mut module);
         place_names::add(&mut module);
         Ok(module.assemble())
     }

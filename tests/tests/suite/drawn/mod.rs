@@ -24,6 +24,7 @@ mod far_away;
 mod far_plane;
 mod filters;
 mod fxaa;
+mod hlsl;
 mod hdr10;
 mod image_quality;
 mod incidents;
