@@ -36,9 +36,8 @@ pub(super) fn compile(
     cancel: &Cancel,
 ) -> Result<Vec<u32>, ShaderProblem> {
     let Some(program) = command.file() else { return Err(not_there(command)) };
-    let machine = |error: io::Error| ShaderProblem::Machine {
-        what: format!("no folder can be made for its compiler: {error}"),
-    };
+    let machine =
+        |error: io::Error| ShaderProblem::Machine { what: format!("no folder can be made for its compiler: {error}") };
     let folder = tempfile::Builder::new().prefix("framewright-shader-").tempdir().map_err(machine)?;
     let places = Places::new(folder.path(), source, included);
     places.write(source, &job.text, included).map_err(machine)?;

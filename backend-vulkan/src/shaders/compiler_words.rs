@@ -129,15 +129,33 @@ mod tests {
         };
         for (said, expected) in [
             // DXC
-            ("a/post.hlsl:4:9: error: use of undeclared identifier 'x'\n    x;\n    ^", "a/post.hlsl|4|Some(9)|use of undeclared identifier 'x'"),
-            ("post.hlsl:1:10: fatal error: 'no.hlsli' file not found", "post.hlsl|1|Some(10)|'no.hlsli' file not found"),
+            (
+                "a/post.hlsl:4:9: error: use of undeclared identifier 'x'\n    x;\n    ^",
+                "a/post.hlsl|4|Some(9)|use of undeclared identifier 'x'",
+            ),
+            (
+                "post.hlsl:1:10: fatal error: 'no.hlsli' file not found",
+                "post.hlsl|1|Some(10)|'no.hlsli' file not found",
+            ),
             // glslang
-            ("post.hlsl\nERROR: post.hlsl:4: 'x' : unknown variable \nERROR: 1 compilation errors.", "post.hlsl|4|None|'x' : unknown variable"),
+            (
+                "post.hlsl\nERROR: post.hlsl:4: 'x' : unknown variable \nERROR: 1 compilation errors.",
+                "post.hlsl|4|None|'x' : unknown variable",
+            ),
             // slangc before and after 2025
-            ("post.slang(4): error 30015: undefined identifier 'x'.\n    x\n    ^", "post.slang|4|None|undefined identifier 'x'."),
-            ("error[E30015]: undefined identifier\n --> post.slang:4:12\n  |", "post.slang|4|Some(12)|undefined identifier"),
+            (
+                "post.slang(4): error 30015: undefined identifier 'x'.\n    x\n    ^",
+                "post.slang|4|None|undefined identifier 'x'.",
+            ),
+            (
+                "error[E30015]: undefined identifier\n --> post.slang:4:12\n  |",
+                "post.slang|4|Some(12)|undefined identifier",
+            ),
             // naga
-            ("error: no definition in scope for identifier: `x`\n  ┌─ post.wgsl:4:12\n  │", "post.wgsl|4|Some(12)|no definition in scope for identifier: `x`"),
+            (
+                "error: no definition in scope for identifier: `x`\n  ┌─ post.wgsl:4:12\n  │",
+                "post.wgsl|4|Some(12)|no definition in scope for identifier: `x`",
+            ),
             ("C:\\a b\\post.hlsl(4,9): error X3000: what", "C:\\a b\\post.hlsl|4|Some(9)|what"),
         ] {
             assert_eq!(told(said), expected, "{said}");

@@ -11,7 +11,9 @@ use super::spirv_cache::{Inclusions, SpirvCache};
 use super::text::included;
 use super::validator::judge;
 use crate::base::{Cancel, digest, identity_of};
-use crate::process::{CompileFailure, CompileJob, CompilerAnswer, Helper, IncludedFile, LARGEST_SPIRV, Limits, NoAnswer, Verdict};
+use crate::process::{
+    CompileFailure, CompileJob, CompilerAnswer, Helper, IncludedFile, LARGEST_SPIRV, Limits, NoAnswer, Verdict,
+};
 use framewright_graph::base::{FilePath, OutsideChoice, Quote, unix_lines};
 use framewright_graph::shader::{FileLanguage, ShaderMessage, ShaderProblem};
 use std::collections::HashMap;

@@ -294,14 +294,8 @@ impl ShaderLibrary {
         }
         let parts = tells_parts(macros);
         let text = both.map_or_else(|| found.text.clone(), |both| both.around(&found.text, stage));
-        let job = CompileJob {
-            stage,
-            language: None,
-            entry: None,
-            shown: found.shown.clone(),
-            text,
-            macros: macros.clone(),
-        };
+        let job =
+            CompileJob { stage, language: None, entry: None, shown: found.shown.clone(), text, macros: macros.clone() };
         let answer = compilers.compile(&job, found, files).map_err(|problem| {
             // A location of the library's own in the text is refused as in the modes in which it compiles.
             let both = both.filter(|both| both.counts_instances());

@@ -4,8 +4,8 @@ use crate::base::ShaderStage;
 use framewright_graph::base::nearest;
 use framewright_graph::shader::FileLanguage;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
 use std::env;
+use std::path::{Path, PathBuf};
 
 /// The commands that compile shaders in HLSL, Slang and WGSL. Without one, HLSL is compiled by shaderc, and Slang and WGSL aren't.
 ///
@@ -54,7 +54,18 @@ const KNOWN: [KnownCompiler; 5] = [
         name: "dxc",
         languages: &[FileLanguage::Hlsl],
         arguments: &[
-            "-spirv", "-fspv-target-env=vulkan1.3", "-T", "{profile}", "-E", "{entry}", "-I", FOLDER, "-D", MACRO, "-Fo", OUTPUT,
+            "-spirv",
+            "-fspv-target-env=vulkan1.3",
+            "-T",
+            "{profile}",
+            "-E",
+            "{entry}",
+            "-I",
+            FOLDER,
+            "-D",
+            MACRO,
+            "-Fo",
+            OUTPUT,
             INPUT,
         ],
         of_entry: &[],
@@ -64,8 +75,20 @@ const KNOWN: [KnownCompiler; 5] = [
         name: "glslangValidator",
         languages: &[FileLanguage::Hlsl],
         arguments: &[
-            "-D", "-V", "--target-env", "vulkan1.3", "-S", "{ending}", "-e", "{entry}", "--auto-map-bindings", "-I{folder}",
-            "-D{macro}", "-o", OUTPUT, INPUT,
+            "-D",
+            "-V",
+            "--target-env",
+            "vulkan1.3",
+            "-S",
+            "{ending}",
+            "-e",
+            "{entry}",
+            "--auto-map-bindings",
+            "-I{folder}",
+            "-D{macro}",
+            "-o",
+            OUTPUT,
+            INPUT,
         ],
         of_entry: &[],
         from: "on Debian and Ubuntu `apt install glslang-tools` installs it",
@@ -74,8 +97,18 @@ const KNOWN: [KnownCompiler; 5] = [
         name: "glslc",
         languages: &[FileLanguage::Hlsl],
         arguments: &[
-            "-x", "hlsl", "-fshader-stage={stage}", "-fentry-point={entry}", "--target-env=vulkan1.3", "-fauto-bind-uniforms",
-            "-I", FOLDER, "-D{macro}", "-o", OUTPUT, INPUT,
+            "-x",
+            "hlsl",
+            "-fshader-stage={stage}",
+            "-fentry-point={entry}",
+            "--target-env=vulkan1.3",
+            "-fauto-bind-uniforms",
+            "-I",
+            FOLDER,
+            "-D{macro}",
+            "-o",
+            OUTPUT,
+            INPUT,
         ],
         of_entry: &[],
         from: "on Debian and Ubuntu `apt install glslc` installs it",
@@ -152,7 +185,8 @@ impl ShaderCompilers {
         };
         let language = FileLanguage::ALL.into_iter().find(|it| *it != FileLanguage::Spirv && word(*it) == named);
         let Some(language) = language else {
-            let meant = nearest(named, words.into_iter()).map_or_else(String::new, |it| format!("; did you mean `{it}`?"));
+            let meant =
+                nearest(named, words.into_iter()).map_or_else(String::new, |it| format!("; did you mean `{it}`?"));
             return bad(format!("`{named}` is no language that is compiled so: {} are{meant}", words.join(", ")));
         };
         self.set(language, command)
@@ -187,7 +221,9 @@ impl CompilerCommand {
             of_entry = known.of_entry;
         }
         if !words.iter().any(|word| word.contains(OUTPUT)) {
-            return Err(format!("the arguments of `{program}` don't say where it writes: `{OUTPUT}` stands for that file"));
+            return Err(format!(
+                "the arguments of `{program}` don't say where it writes: `{OUTPUT}` stands for that file"
+            ));
         }
         Ok(CompilerCommand { text: text.to_owned(), program, words, of_entry })
     }
@@ -233,7 +269,8 @@ impl CompilerCommand {
             // `-I {folder}` is repeated as a whole, and so is `-I{folder}`.
             let next = words.get(at + 1).copied();
             let repeated = |word: &str| word.contains(FOLDER) || word.contains(MACRO);
-            let pair = word.starts_with('-') && !repeated(word) && next.is_some_and(|next| [FOLDER, MACRO].contains(&next));
+            let pair =
+                word.starts_with('-') && !repeated(word) && next.is_some_and(|next| [FOLDER, MACRO].contains(&next));
             let (flag, word) = if pair { (Some(*word), next.unwrap_or_default()) } else { (None, *word) };
             at += if pair { 2 } else { 1 };
             let values: &[String] = match word {

@@ -7,8 +7,9 @@ use crate::command_line::values::Size;
 use crate::error::Error;
 use crate::files::inputs::{self, FileRole};
 use crate::system::Exit;
-use framewright::{Choices, DrawInterfaces, Helper, Pipeline, PlannedFrame, PrecompiledShaders, RendererOptions,
-    ShaderCompilers};
+use framewright::{
+    Choices, DrawInterfaces, Helper, Pipeline, PlannedFrame, PrecompiledShaders, RendererOptions, ShaderCompilers,
+};
 use framewright_graph::base::{ReadFiles, Sources};
 use framewright_graph::device::MemoryEstimate;
 use framewright_graph::shader;
@@ -42,7 +43,8 @@ pub(crate) fn precompiled(arguments: &PipelineArguments) -> Option<PrecompiledSh
 
 /// The commands that compile shaders: those of the command line are stronger than those of the environment.
 fn compilers(arguments: &PipelineArguments) -> Result<ShaderCompilers, Error> {
-    let mut compilers = ShaderCompilers::of_environment().map_err(|bad| Error::ShaderCompiler { what: bad.to_string() })?;
+    let mut compilers =
+        ShaderCompilers::of_environment().map_err(|bad| Error::ShaderCompiler { what: bad.to_string() })?;
     arguments.shader_compiler.iter().for_each(|stronger| compilers.and(stronger));
     Ok(compilers)
 }

@@ -37,7 +37,10 @@ fn hlsl_needs_no_compiler_of_the_users() {
     place.run(&["check", "p.ron"]).exits(0);
     // As most files have it: registers of each kind from 0 on, or none at all.
     let from_0 = HLSL.replace("register(s1, space0)", "register(s0)").replace("register(b2, space0)", "register(b0)");
-    let without = HLSL.replace(" : register(t0, space0)", "").replace(" : register(s1, space0)", "").replace(" : register(b2, space0)", "");
+    let without = HLSL
+        .replace(" : register(t0, space0)", "")
+        .replace(" : register(s1, space0)", "")
+        .replace(" : register(b2, space0)", "");
     assert!(from_0 != HLSL && !without.contains("register("));
     for text in [from_0, without] {
         place.file("post.hlsl", text);
@@ -50,7 +53,11 @@ fn hlsl_needs_no_compiler_of_the_users() {
 #[test]
 fn a_mistake_is_shown_at_its_line_of_the_file_that_has_it() {
     let place = of("post.hlsl:PSMain", "post.hlsl", &HLSL.replace("image.Sample", "imag.Sample"));
-    place.run(&["check", "p.ron"]).exits(1).mentions("error: shader `post.hlsl:PSMain` doesn't compile [E0802]").mentions("post.hlsl:8");
+    place
+        .run(&["check", "p.ron"])
+        .exits(1)
+        .mentions("error: shader `post.hlsl:PSMain` doesn't compile [E0802]")
+        .mentions("post.hlsl:8");
     // What is included lies beside the file, or is shipped.
     let including = format!("#include \"part/light.hlsli\"\n{}", HLSL.replace(" * tint", " * tint * lit()"));
     place.file("post.hlsl", &including);
@@ -67,7 +74,11 @@ fn an_entry_point_that_is_not_there_is_said() {
     let place = of("post.hlsl:PSMainn", "post.hlsl", HLSL);
     place.run(&["check", "p.ron"]).exits(1).mentions("post.hlsl:PSMainn").mentions("entry point");
     let place = of("past.hlsl:PSMain", "post.hlsl", HLSL);
-    place.run(&["check", "p.ron"]).exits(1).mentions("there is no shader named `past.hlsl:PSMain` [E0801]").mentions("post.hlsl");
+    place
+        .run(&["check", "p.ron"])
+        .exits(1)
+        .mentions("there is no shader named `past.hlsl:PSMain` [E0801]")
+        .mentions("post.hlsl");
 }
 
 #[test]
@@ -76,7 +87,9 @@ fn a_language_of_which_no_compiler_is_named_is_said_with_the_option_that_names_o
     place
         .run(&["check", "p.ron"])
         .exits(3)
-        .mentions("error: shader `post.wgsl:tinted` isn't compiled: no compiler of WGSL is named [E1310]\n --> p.ron:5:")
+        .mentions(
+            "error: shader `post.wgsl:tinted` isn't compiled: no compiler of WGSL is named [E1310]\n --> p.ron:5:",
+        )
         .mentions("`--shader-compiler LANGUAGE=COMMAND` names it");
 }
 
@@ -86,7 +99,10 @@ fn a_compiler_that_can_be_none_is_a_mistake_of_the_command_line() {
         ("wgsl", "`wgsl` names no compiler"),
         ("hlls=dxc", "did you mean `hlsl`?"),
         ("hlsl=naga", "`naga` doesn't compile HLSL"),
-        ("hlsl=mycc -O2", "the arguments of `mycc` aren't known: write them, as in `mycc -E {entry} -o {output} {input}`"),
+        (
+            "hlsl=mycc -O2",
+            "the arguments of `mycc` aren't known: write them, as in `mycc -E {entry} -o {output} {input}`",
+        ),
         ("hlsl=mycc {input}", "don't say where it writes"),
         ("hlsl=", "the command is empty"),
     ] {
@@ -138,14 +154,17 @@ impl StandIn {
 fn a_compiler_that_fails_as_none_should_is_said_in_words() {
     let of = |lines: &str| StandIn::new(lines).check().exits(1);
     of("exit 3").mentions("its compiler `sh` failed without a word (exit status: 3) [E1310]");
-    of("echo made it; exit 0").mentions("wrote nothing, and says that all is well [E1310]").mentions("help: it said: made it");
+    of("echo made it; exit 0")
+        .mentions("wrote nothing, and says that all is well [E1310]")
+        .mentions("help: it said: made it");
     of("echo words > $1").mentions("wrote no SPIR-V that can be read: it doesn't begin as SPIR-V does");
     of("printf '\\003\\002\\043\\007\\000\\007\\001\\000aaaabbbbcccc' > $1")
         .mentions("it is SPIR-V 1.7: versions 1.0 to 1.6 are taken, those of Vulkan 1.3");
     of("kill -SEGV $$").mentions("its compiler `sh` crashed (SIGSEGV)");
     // What it says is no more than its beginning, and its standard input is empty.
     of("cat; yes | head -c 300000000; exit 1").mentions("shader `post.wgsl:tinted` doesn't compile");
-    of("head -c 100000000 /dev/zero > $1; sleep 20").mentions("wrote more than the 16777216 bytes of SPIR-V that are taken");
+    of("head -c 100000000 /dev/zero > $1; sleep 20")
+        .mentions("wrote more than the 16777216 bytes of SPIR-V that are taken");
 }
 
 #[cfg(unix)]
@@ -157,7 +176,9 @@ fn a_compiler_that_hangs_is_ended_with_all_that_it_started() {
     let script = format!("PLACE={}\nsleep 77 &\necho $! > $PLACE\nwait\n", kept.display());
     stand_in.0.file("compiler.sh", script);
     let outcome = stand_in.check_with(&["--shader-seconds", "1"]).exits(1);
-    outcome.mentions("its compiler `sh` took longer than 1 s for ./post.wgsl, which is its limit").mentions("`--shader-seconds` raises it");
+    outcome
+        .mentions("its compiler `sh` took longer than 1 s for ./post.wgsl, which is its limit")
+        .mentions("`--shader-seconds` raises it");
     assert!(began.elapsed().as_secs() < 30);
     let child = std::fs::read_to_string(kept).expect("it began");
     // A process that was killed, and that nobody has asked for, is a zombie at most.
@@ -173,7 +194,13 @@ fn a_compiler_is_run_once_for_one_text_and_told_of_by_no_pipeline() {
     let runs = place.path("runs");
     let script = format!("echo ran >> {}\ncp {} $1\n", runs.display(), place.path("made.spv").display());
     place.file("compiler.sh", script);
-    place.file("p.ron", pipeline("post.wgsl:tinted").replace("\"source\"", "\"binding 0\"").replace("\"factor\"", "\"offset 0\"").replace("\"tint\"", "\"offset 16\""));
+    place.file(
+        "p.ron",
+        pipeline("post.wgsl:tinted")
+            .replace("\"source\"", "\"binding 0\"")
+            .replace("\"factor\"", "\"offset 0\"")
+            .replace("\"tint\"", "\"offset 16\""),
+    );
     let ran = || std::fs::read_to_string(&runs).unwrap_or_default().lines().count();
     stand_in.check().exits(0);
     assert_eq!(ran(), 1);
@@ -204,11 +231,21 @@ fn naga_compiles_wgsl_and_its_words_are_shown_at_the_line() {
         return;
     }
     let place = of("post.wgsl:tinted", "post.wgsl", WGSL);
-    place.file("p.ron", pipeline("post.wgsl:tinted").replace("\"source\"", "\"binding 0\"").replace("\"factor\"", "\"offset 0\"").replace("\"tint\"", "\"offset 16\""));
+    place.file(
+        "p.ron",
+        pipeline("post.wgsl:tinted")
+            .replace("\"source\"", "\"binding 0\"")
+            .replace("\"factor\"", "\"offset 0\"")
+            .replace("\"tint\"", "\"offset 16\""),
+    );
     let check = || place.run(&["check", "p.ron", "--shader-compiler", "wgsl=naga"]);
     check().exits(0);
     place.file("post.wgsl", WGSL.replace("textureSample(source", "textureSample(sourc"));
-    check().exits(1).mentions("doesn't compile [E0802]").mentions("post.wgsl:8").mentions("no definition in scope for identifier: `sourc`");
+    check()
+        .exits(1)
+        .mentions("doesn't compile [E0802]")
+        .mentions("post.wgsl:8")
+        .mentions("no definition in scope for identifier: `sourc`");
 }
 
 #[test]
@@ -218,7 +255,9 @@ fn slangc_compiles_slang_and_hlsl() {
     }
     let slang = include_str!("../../../tests/shaders/spirv/post.slang");
     let place = of("post.slang:tinted", "post.slang", slang);
-    let check = || place.run(&["check", "p.ron", "--shader-compiler", "slang=slangc -O0", "--shader-compiler", "hlsl=slangc -O0"]);
+    let check = || {
+        place.run(&["check", "p.ron", "--shader-compiler", "slang=slangc -O0", "--shader-compiler", "hlsl=slangc -O0"])
+    };
     check().exits(0);
     place.file("p.ron", pipeline("post.slang"));
     check().exits(0);

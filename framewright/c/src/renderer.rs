@@ -61,6 +61,9 @@ pub struct FramewrightRendererOptions {
     pub settings: FramewrightNames,
     /// Extensions that are applied to the pipeline: files, or paths of shipped ones.
     pub extensions: FramewrightNames,
+    /// Commands that compile shaders in HLSL, Slang and WGSL, each with its language: `hlsl=dxc`, `slang=slangc -O0`. Later ones are
+    /// stronger. docs/hlsl.md has more.
+    pub shader_compilers: FramewrightNames,
 }
 
 // SAFETY: it begins with its size, and has integers and pointers alone.
@@ -72,6 +75,7 @@ unsafe impl Structure for FramewrightRendererOptions {
         shaders: FramewrightNames::NONE,
         settings: FramewrightNames::NONE,
         extensions: FramewrightNames::NONE,
+        shader_compilers: FramewrightNames::NONE,
     };
 }
 
@@ -211,6 +215,10 @@ pub unsafe extern "C" fn framewright_renderer_open(
             options.shaders = folders.into_iter().map(|folder| Root::new(folder.into())).collect();
             options.settings = given.settings.texts("settings")?.into_iter().map(Into::into).collect();
             options.files.extensions = given.extensions.texts("extensions")?.into_iter().map(Into::into).collect();
+            for compiler in given.shader_compilers.texts("shader_compilers")? {
+                let named = options.shader_compilers.set_named(&compiler);
+                named.map_err(|bad| Problem::Misuse(format!("`shader_compilers`: {bad}")))?;
+            }
         }
         let renderer = Renderer::open(&device.device, pipeline, options)?;
         Ok(FramewrightRenderer(Mutex::new(State {

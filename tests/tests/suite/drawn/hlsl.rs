@@ -1,18 +1,22 @@
 //! HLSL and Slang, compiled as they are drawn, draw what the same effect in GLSL draws (DO-2, DO-3).
 
+use framewright_graph::base::Root;
 use framewright_graph::compile::Options;
 use framewright_graph::shader::FileLanguage;
-use framewright_passes::draw::SceneDrawSource;
-use framewright_tests::render::{Setup, Ways, device, library, plan_for, silent};
+use framewright_passes::draw::{SceneDrawSource, interfaces};
+use framewright_passes::shipped::SHADERS;
+use framewright_tests::render::{Setup, Ways, device, in_repository, plan_for, silent};
 use framewright_tests::shapes::empty_scene;
-use framewright_vulkan::{Device, Executor, ExecutorOptions, ShaderCompilers};
+use framewright_vulkan::{Device, Executor, ExecutorOptions, ShaderCompilers, ShaderLibrary};
 use std::error::Error;
 
 /// The pipeline's pictures, and its numbers, with shaders that these compilers compile.
 fn drawn(device: &Device, compilers: ShaderCompilers) -> Result<Vec<Vec<u8>>, Box<dyn Error>> {
     let scene = empty_scene();
     let setup = Setup { pipeline: "tests/pipelines/hlsl.ron", set: &[], scene: &scene, extent: [8, 8] };
-    let mut shaders = library().with_compilers(compilers);
+    // The effect is the example's.
+    let folders = ["tests/shaders", "examples"].map(|folder| Root::new(in_repository(folder)));
+    let mut shaders = ShaderLibrary::new(folders.into(), SHADERS, interfaces()).with_compilers(compilers);
     let plan = plan_for(device, &setup, Ways::default(), &mut shaders, &Options::default())?;
     let mut draws = SceneDrawSource::for_plan(device, &scene, setup.extent, &plan)?;
     let mut executor = Executor::new(device, &plan, &mut shaders, &ExecutorOptions::default())?;
