@@ -76,4 +76,4 @@ pub use record::{
 pub use resources::{
     BindGroup, Buffer, BufferUsage, DynamicBuffer, ProgramBuffer, ProgramView, RawSet, Resource, Texture,
 };
-pub use shaders::{PrecompiledShaders, SetLayouts, ShaderLibrary};
+pub use shaders::{BadCompiler, PrecompiledShaders, SetLayouts, ShaderCompilers, ShaderLibrary};

@@ -201,6 +201,9 @@ pub(crate) enum Error {
         "{why}\nhelp: `--stereo auto` takes the fastest way that it has; several, as `--stereo multiview,double-wide`, the first"
     )]
     Stereo { why: String },
+    /// The environment names a compiler of shaders that can't be one.
+    #[error("{}", text::escape(what))]
+    ShaderCompiler { what: String },
     /// A picture was asked for of something that is none.
     #[error(
         "`{}` is a buffer, and only images become pictures: leave out `-o`, or dump an image",
@@ -411,6 +414,7 @@ impl Error {
             | Error::OtherResults { .. }
             | Error::NoName { .. }
             | Error::UnknownCode { .. }
+            | Error::ShaderCompiler { .. }
             | Error::WrittenTwice { .. } => Exit::Usage,
             Error::Interrupted { .. } | Error::InterruptedMeasuring { .. } | Error::InterruptedWriting { .. } => {
                 Exit::Interrupted

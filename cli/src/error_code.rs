@@ -47,6 +47,7 @@ impl Error {
             }
             Error::Violations { .. } | Error::Csv(_) | Error::Unwritable(_) | Error::Json(_) => Code::OWN_MISTAKE,
             Error::Stereo { .. } => Code::STEREO_UNSUPPORTED,
+            Error::ShaderCompiler { .. } => Code::SHADER_COMPILER,
             Error::Write { .. } | Error::NoFolder { .. } | Error::Cache { .. } | Error::Print(_) => {
                 Code::FILE_UNWRITABLE
             }

@@ -23,9 +23,10 @@ impl Assets {
     pub fn new(root: Option<&Root>, options: &RendererOptions, read: &ReadFiles) -> Assets {
         let folders = root.into_iter().chain(&options.shaders);
         let folders = folders.map(|root| root.clone().recorded(read, "the shader itself"));
-        let shaders =
-            ShaderLibrary::new(folders.collect(), SHADERS, options.draws.clone()).with_spirv(options.spirv.clone());
-        let shaders = shaders.with_set_layouts(options.set_layouts.clone());
+        let shaders = ShaderLibrary::new(folders.collect(), SHADERS, options.draws.clone())
+            .with_spirv(options.spirv.clone())
+            .with_compilers(options.shader_compilers.clone())
+            .with_set_layouts(options.set_layouts.clone());
         let shaders = match &options.helper {
             Some(helper) => shaders.with_helper(helper),
             None => shaders,

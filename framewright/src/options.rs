@@ -5,7 +5,7 @@ use framewright_graph::base::Root;
 use framewright_graph::compile;
 use framewright_graph::shader::DrawInterfaces;
 use framewright_passes::draw;
-use framewright_vulkan::{ExecutorOptions, Helper, PrecompiledShaders, SetLayouts};
+use framewright_vulkan::{ExecutorOptions, Helper, PrecompiledShaders, SetLayouts, ShaderCompilers};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -21,6 +21,8 @@ pub struct RendererOptions {
     pub shaders: Vec<Root>,
     /// SPIR-V of the program's own, by the names of files that no folder has: a pipeline says `FullScreen("post.spv")`.
     pub spirv: Vec<(Arc<str>, Arc<[u8]>)>,
+    /// Commands that compile HLSL, Slang and WGSL. [`ShaderCompilers::of_environment`] has those that the user names.
+    pub shader_compilers: ShaderCompilers,
     /// What the program's draws bring along; by default what [`SceneDrawSource`](crate::SceneDrawSource) does.
     pub draws: DrawInterfaces,
     /// Layouts of sets that the program makes and binds itself, which [`RendererOptions::draws`] tells.
@@ -42,6 +44,7 @@ impl Default for RendererOptions {
             settings: Vec::new(),
             shaders: Vec::new(),
             spirv: Vec::new(),
+            shader_compilers: ShaderCompilers::default(),
             draws: draw::interfaces(),
             set_layouts: SetLayouts::default(),
             helper: None,

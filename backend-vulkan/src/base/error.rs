@@ -295,7 +295,10 @@ impl Error {
             | Error::SurfaceLost { .. }
             | Error::Timeout { .. }
             | Error::OutOfMemory { .. } => Blame::Environment,
-            Error::Shader { problem: ShaderProblem::Machine { .. }, .. } => Blame::Environment,
+            Error::Shader {
+                problem: ShaderProblem::Machine { .. } | ShaderProblem::Compiler { of_machine: true, .. },
+                ..
+            } => Blame::Environment,
             Error::Texture { problem, .. } if problem.is_of_machine() => Blame::Environment,
             Error::AtStep { error, .. } => error.blame(),
             Error::Shader { .. }
@@ -408,6 +411,8 @@ fn problem_text(problem: &ShaderProblem) -> String {
         ShaderProblem::Unsupported { what } | ShaderProblem::BadModule { what } | ShaderProblem::Machine { what } => {
             format!("can't be used: {}", escape(what))
         }
+        ShaderProblem::Compiler { what, help, .. } if help.is_empty() => format!("isn't compiled: {}", escape(what)),
+        ShaderProblem::Compiler { what, help, .. } => format!("isn't compiled: {}; {}", escape(what), escape(help)),
         ShaderProblem::EntryPoint { file, stage, named, of_stage, .. } => {
             let named = named.as_ref().map_or_else(String::new, |named| format!(" `{}`", escape(named)));
             format!("{}: no single entry point{named} of a {stage} stage; there are: {}", escape(file), list(of_stage))

@@ -20,7 +20,7 @@ pub(crate) use convert::Clear;
 pub(crate) use debug_words::{by, named, numbers};
 pub(crate) use kept_files::{bytes_in, digest, shrink, used_now};
 pub(crate) use platform::{
-    ChildInput, apart_from_interrupts, in_words, is_crash, limit_this_process, start_with_input, take_standard_output,
-    with_usual_rights,
+    ChildInput, apart_from_interrupts, end_with_children, in_words, is_crash, limit_this_process, start_with_input,
+    take_standard_output, with_usual_rights,
 };
 pub(crate) use shader_stage::{ShaderStage, StageFacts, stage_flags};

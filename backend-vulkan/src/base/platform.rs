@@ -105,6 +105,17 @@ pub(crate) fn apart_from_interrupts(command: &mut Command) {
     let _ = command;
 }
 
+/// Ends a process that was started [apart from interrupts](apart_from_interrupts), on Unix with all that it started.
+pub(crate) fn end_with_children(child: &mut Child) {
+    #[cfg(unix)]
+    if let Ok(group) = i32::try_from(child.id()) {
+        use nix::sys::signal::{Signal, killpg};
+        // It may have ended already.
+        let _ = killpg(nix::unistd::Pid::from_raw(group), Signal::SIGKILL);
+    }
+    let _ = child.kill();
+}
+
 /// How a process ended: the signal's name, where one ended it.
 pub(crate) fn in_words(status: ExitStatus) -> String {
     #[cfg(unix)]

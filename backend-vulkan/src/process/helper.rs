@@ -112,6 +112,11 @@ impl Helper {
         &self.limits
     }
 
+    /// What cancels waits.
+    pub(crate) fn cancel(&self) -> &Arc<Cancel> {
+        &self.cancel
+    }
+
     /// The cache, if anything is kept.
     pub(crate) fn cache(&self) -> Option<&Cache> {
         self.cache.as_ref()

@@ -1,5 +1,6 @@
 //! The helper process as the program sees it: how it is started, what it is asked, what bounds it.
 
+mod bounded_command;
 mod compiler_answer;
 mod helper;
 mod helper_process;
@@ -9,6 +10,7 @@ mod protocol;
 pub use helper::{Helper, LongTest};
 pub use limits::Limits;
 
+pub(crate) use bounded_command::{Bounds, GivenUp, run};
 pub(crate) use compiler_answer::{CompilerAnswer, Finding, Verdict};
 pub(crate) use helper::DeviceName;
 pub(crate) use helper_process::NoAnswer;

@@ -2,6 +2,7 @@
 
 use super::compiler_answer::Verdict;
 use crate::base::ShaderStage;
+use framewright_graph::shader::FileLanguage;
 use framewright_graph::vulkan::ResolveMode;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
@@ -63,6 +64,10 @@ pub(crate) enum SelfTest {
 pub(crate) struct CompileJob {
     /// The stage.
     pub(crate) stage: ShaderStage,
+    /// The language; `None`: GLSL.
+    pub(crate) language: Option<FileLanguage>,
+    /// The entry point; `None`: `main`, or all that there are.
+    pub(crate) entry: Option<String>,
     /// The name of its file that messages show.
     pub(crate) shown: String,
     /// The text of that file, or one made of it.
@@ -76,7 +81,7 @@ pub(crate) struct CompileJob {
 pub(crate) struct IncludedFile {
     /// The name that messages show.
     pub(crate) shown: String,
-    /// GLSL.
+    /// Its text.
     pub(crate) text: String,
     /// What tells the file from others, if it says `#pragma once`: included again it has no text.
     pub(crate) once: Option<u64>,

@@ -1,8 +1,9 @@
-//! GLSL to SPIR-V through shaderc.
+//! GLSL and HLSL to SPIR-V through shaderc.
 
 use super::compile::{Includes, MAX_INCLUDES};
 use crate::base::ShaderStage;
 use crate::process::{CompileFailure, CompileJob, LARGEST_SPIRV};
+use framewright_graph::shader::FileLanguage;
 use shaderc::{
     CompileOptions, Compiler, EnvVersion, GlslProfile, OptimizationLevel, ResolvedInclude, ShaderKind, SourceLanguage,
     SpirvVersion, TargetEnv,
@@ -24,7 +25,7 @@ static COMPILER: OnceLock<Compiler> = OnceLock::new();
 /// # Errors
 /// The compiler's messages, or that it failed itself.
 pub(super) fn compile(
-    CompileJob { stage, shown, text, macros }: &CompileJob,
+    CompileJob { stage, language, entry, shown, text, macros }: &CompileJob,
     includes: &mut Includes<'_>,
     lines: bool,
 ) -> Result<Vec<u32>, CompileFailure> {
@@ -33,8 +34,18 @@ pub(super) fn compile(
     let included = Cell::new(0);
     let once = RefCell::new(BTreeSet::new());
     let mut options = CompileOptions::new().map_err(|error| CompileFailure::Internal(error.to_string()))?;
-    options.set_source_language(SourceLanguage::GLSL);
-    options.set_forced_version_profile(460, GlslProfile::Core);
+    match language {
+        None => {
+            options.set_source_language(SourceLanguage::GLSL);
+            options.set_forced_version_profile(460, GlslProfile::Core);
+        }
+        Some(FileLanguage::Hlsl) => {
+            options.set_source_language(SourceLanguage::HLSL);
+            // What has no register gets a binding of its own.
+            options.set_auto_bind_uniforms(true);
+        }
+        Some(_) => return Err(CompileFailure::NoCompiler),
+    }
     options.set_target_env(TargetEnv::Vulkan, EnvVersion::Vulkan1_3 as u32);
     // From 1.6 on a workgroup's size is an `OpExecutionModeId`, which the reader of SPIR-V takes for a mistake.
     options.set_target_spirv(if stage.facts().has_workgroups { SpirvVersion::V1_5 } else { SpirvVersion::V1_6 });
@@ -63,7 +74,7 @@ pub(super) fn compile(
         ShaderStage::Fragment => ShaderKind::Fragment,
         ShaderStage::Compute => ShaderKind::Compute,
     };
-    match compiler.compile_into_spirv(text, kind, shown, "main", Some(&options)) {
+    match compiler.compile_into_spirv(text, kind, shown, entry.as_deref().unwrap_or("main"), Some(&options)) {
         Ok(artifact) => bounded(artifact.as_binary(), LARGEST_SPIRV).map(<[u32]>::to_vec),
         Err(shaderc::Error::CompilationError(_, text)) => Err(CompileFailure::Messages(messages(&text))),
         Err(error) => Err(failed(&error)),

@@ -1,24 +1,34 @@
-//! Where stages come from: from a folder of precompiled ones, or of the GLSL compiler, in this process or in a helper process.
+//! Where stages come from: from a folder of precompiled ones, or of a compiler: that of GLSL and HLSL in this process or in a helper
+//! process, or a command.
 
+use super::by_command;
 use super::compile::{Includes, compile};
 use super::files::{ShaderFiles, SourceFile};
 use super::messages::located;
 use super::precompiled_shaders::PrecompiledShaders;
+use super::shader_compilers::{CompilerCommand, ShaderCompilers};
 use super::spirv_cache::{Inclusions, SpirvCache};
+use super::text::included;
 use super::validator::judge;
-use crate::process::{CompileFailure, CompileJob, CompilerAnswer, Helper, IncludedFile, LARGEST_SPIRV, NoAnswer};
-use framewright_graph::base::{FilePath, OutsideChoice, Quote};
-use framewright_graph::shader::{ShaderMessage, ShaderProblem};
+use crate::base::{Cancel, digest, identity_of};
+use crate::process::{
+    CompileFailure, CompileJob, CompilerAnswer, Helper, IncludedFile, LARGEST_SPIRV, Limits, NoAnswer, Verdict,
+};
+use framewright_graph::base::{FilePath, OutsideChoice, Quote, unix_lines};
+use framewright_graph::shader::{FileLanguage, ShaderMessage, ShaderProblem};
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// Where stages come from.
 pub(super) struct Compilers {
     compiler: Compiler,
+    /// Commands that compile other languages than GLSL.
+    pub(super) commands: ShaderCompilers,
     /// Stages that need no compiler.
     pub(super) precompiled: Option<PrecompiledShaders>,
 }
 
-/// Where GLSL is compiled.
+/// Where GLSL is compiled, and HLSL for which no command is named.
 enum Compiler {
     /// In this process.
     Here,
@@ -33,7 +43,7 @@ impl Compilers {
             let cache = helper.cache().map(|cache| SpirvCache::new(cache, helper.path(), helper.limits()));
             Compiler::Helper(helper.clone(), cache)
         });
-        Compilers { compiler, precompiled }
+        Compilers { compiler, commands: ShaderCompilers::default(), precompiled }
     }
 
     /// Takes a stage, whose own file is `source`, from those that were compiled ahead, or compiles it.
@@ -60,6 +70,11 @@ impl Compilers {
         source: &SourceFile,
         files: &ShaderFiles,
     ) -> Result<CompilerAnswer, ShaderProblem> {
+        match job.language.map(|language| (language, self.commands.of(language))) {
+            Some((_, Some(command))) => return self.by_command(command, job, source, files),
+            None | Some((FileLanguage::Hlsl, None)) => {}
+            Some((language, None)) => return Err(by_command::no_command(language)),
+        }
         // Which files the compiler's names stand for, and what they hold.
         let mut known = HashMap::from([(source.shown.clone(), (source.path.clone(), source.text.clone()))]);
         let mut refused = None;
@@ -103,6 +118,42 @@ impl Compilers {
                 ),
             },
         })
+    }
+
+    /// Has a command compile a stage, unless the cache holds it.
+    fn by_command(
+        &self,
+        command: &CompilerCommand,
+        job: &CompileJob,
+        source: &SourceFile,
+        files: &ShaderFiles,
+    ) -> Result<CompilerAnswer, ShaderProblem> {
+        let included = included(files, source);
+        let (limits, cancel, cache) = match &self.compiler {
+            Compiler::Helper(helper, _) => (helper.limits().clone(), helper.cancel().clone(), helper.cache()),
+            Compiler::Here => (Limits::default(), Arc::<Cancel>::default(), None),
+        };
+        let mut cache = cache.zip(command.file()).map(|(cache, program)| {
+            let texts: Vec<_> = included.iter().map(|file| (file.path.to_string(), unix_lines(&file.text))).collect();
+            let identity = format!("{}; {}; {:016x}", identity_of(&program), command.text(), digest(&texts));
+            SpirvCache::of_command(cache, identity)
+        });
+        let found = cache.as_ref().and_then(|cache| cache.find(job, &mut |_, _| Err(String::new())));
+        if let Some(found) = found {
+            return Ok(found);
+        }
+        let spirv = by_command::compile(command, job, source, &included, limits.time, &cancel)?;
+        // It is judged when an entry point was cut out of it.
+        let answer = CompilerAnswer { spirv, verdict: Verdict::None };
+        if let Some(cache) = &mut cache {
+            cache.keep(job, Inclusions::of(job), &answer);
+        }
+        Ok(answer)
+    }
+
+    /// The name of the compiler of a language, for messages.
+    pub(super) fn name_of(&self, language: FileLanguage) -> &str {
+        self.commands.of(language).map_or("shaderc", CompilerCommand::program)
     }
 
     /// That there is no compiler for a file.
@@ -166,9 +217,10 @@ fn no_answer(source: &SourceFile, end: &NoAnswer) -> ShaderProblem {
     of_file(source, &end.to_string(), limit)
 }
 
-/// The problem of a file as a whole. The GLSL compiler had no time to name a line: the file's first one stands for the file.
+/// The problem of a file as a whole. The compiler had no time to name a line: the file's first one stands for the file.
 fn of_file(source: &SourceFile, what: &str, limit: Option<OutsideChoice>) -> ShaderProblem {
-    let words = format!("the GLSL compiler {what}");
+    let language = FileLanguage::of_file(source.path.path()).map_or("GLSL", |it| it.facts().name);
+    let words = format!("the {language} compiler {what}");
     let quote = Quote {
         file: source.shown.clone(),
         line: 1,

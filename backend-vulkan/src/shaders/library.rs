@@ -5,13 +5,15 @@ use super::colors;
 use super::compilers::Compilers;
 use super::coverage::{DISCARDS, MASKS_SAMPLES};
 use super::eyes::{self, BothEyes};
+use super::file_stages::FileStage;
 use super::files::{ShaderFiles, SourceFile};
 use super::layers;
 use super::macros::{Macros, PARTS, both_eyes, macros};
 use super::needs::Needed;
 use super::reflect::reflect;
 use super::set_layouts::SetLayouts;
-use super::stage_sources::{StageSource, StageSources, file_of};
+use super::shader_compilers::ShaderCompilers;
+use super::stage_sources::{StageCode, StageSource, StageSources, file_of};
 use super::stages::{CompiledStage, Spirv, changes_nothing, join};
 use super::text::{self, RefusedStage, Words};
 use super::validator::judge;
@@ -113,7 +115,9 @@ impl ShaderLibrary {
     #[must_use]
     pub fn with_helper(self, helper: &Helper) -> ShaderLibrary {
         let precompiled = self.compilers.precompiled.clone();
-        ShaderLibrary { compilers: Compilers::new(Some(helper), precompiled), ..self }
+        let mut compilers = Compilers::new(Some(helper), precompiled);
+        compilers.commands = self.compilers.commands;
+        ShaderLibrary { compilers, ..self }
     }
 
     /// Takes compiled stages from a folder; `None`: from none. A program without the feature `shader-compiler`, and without a helper
@@ -121,6 +125,13 @@ impl ShaderLibrary {
     #[must_use]
     pub fn with_precompiled(mut self, precompiled: Option<PrecompiledShaders>) -> ShaderLibrary {
         self.compilers.precompiled = precompiled;
+        self
+    }
+
+    /// Has HLSL, Slang and WGSL compiled by commands.
+    #[must_use]
+    pub fn with_compilers(mut self, compilers: ShaderCompilers) -> ShaderLibrary {
+        self.compilers.commands = compilers;
         self
     }
 
@@ -176,7 +187,7 @@ impl ShaderLibrary {
                 return Err(ShaderProblem::Unsupported { what: placed.unwrap_or_default() });
             }
         };
-        if ShaderName::is_spirv(name) {
+        if ShaderName::has_file(name) {
             interface.take_names(&variant.given);
         }
         let fills = !draw.is_full_screen() || usual_vertices;
@@ -184,7 +195,7 @@ impl ShaderLibrary {
         let spirv = vertex.spirv.clone();
         if variant.depth_only && changes_nothing(&fragment.reflected.interface) {
             let (mut interface, input_attachments) = (vertex.reflected.interface.clone(), Vec::new());
-            if ShaderName::is_spirv(name) {
+            if ShaderName::has_file(name) {
                 interface.take_names(&variant.given);
             }
             // One driver takes no notice of clip distances where there is no fragment stage: docs/drivers.md.
@@ -215,7 +226,7 @@ impl ShaderLibrary {
         let stage = self.stage(&name, COMPUTE, variant)?;
         let stage = stage.ok_or_else(|| self.sources.lacking(&name, COMPUTE))?;
         let mut interface = stage.reflected.interface.clone();
-        if name.is_spirv() {
+        if name.is_file() {
             interface.take_names(&variant.given);
         }
         Ok(CompiledCompute { compute: stage.spirv.clone(), interface })
@@ -233,12 +244,12 @@ impl ShaderLibrary {
             ShaderName::Whole(name @ StageName::Glsl(_)) => {
                 Ok(self.stage(name, VERTEX, variant)?.filter(|own| own.shipped == shipped))
             }
-            ShaderName::Whole(StageName::Spirv { file, .. }) => {
+            ShaderName::Whole(StageName::File { file, .. }) => {
                 let source = self.sources.source(file)?;
-                let has = source.and_then(|it| it.module.as_ref().map(|module| module.has(VERTEX)));
+                let has = source.is_some_and(|it| matches!(&it.code, StageCode::Module(module) if module.has(VERTEX)));
                 match has {
-                    Some(true) => self.stage(&StageName::Spirv { file: file.clone(), entry: None }, VERTEX, variant),
-                    _ => Ok(None),
+                    true => self.stage(&StageName::File { file: file.clone(), entry: None }, VERTEX, variant),
+                    false => Ok(None),
                 }
             }
         }
@@ -254,7 +265,7 @@ impl ShaderLibrary {
         let file = draw.usual_vertex_shader();
         let what = || match name {
             StageName::Glsl(name) => format!("no vertex shader: neither `{name}.vert` nor `{file}` was found"),
-            StageName::Spirv { .. } => format!("no vertex shader: `{file}` wasn't found"),
+            StageName::File { .. } => format!("no vertex shader: `{file}` wasn't found"),
         };
         let usual = match FilePath::of_text(&name.to_string()) {
             FilePath::Own(_) => FilePath::Own(file.into()),
@@ -290,13 +301,14 @@ impl ShaderLibrary {
 
     /// The SPIR-V of a stage, of the file's or compiled.
     fn spirv_of(&mut self, source: &StageSource, key: &StageKey) -> Result<CompilerAnswer, ShaderProblem> {
-        let StageSource { found, module, .. } = source;
+        let StageSource { found, .. } = source;
         let (name, stage, macros, both, in_layers) = key;
         let stage = *stage;
         let (compilers, files, program_sets) = (&mut self.compilers, &self.sources.files, &self.program_sets);
         let unsupported = |refused: RefusedStage| ShaderProblem::Unsupported { what: refused.placed(files, found) };
-        if let (Some(module), StageName::Spirv { file, entry }) = (module, name) {
-            let spirv = module.cut(file, stage, entry.as_deref())?;
+        if let StageName::File { file, entry } = name {
+            let wanted = FileStage { file, entry: entry.as_deref(), stage, macros };
+            let spirv = wanted.compiled(source, compilers, files)?;
             let counts = both.is_some_and(BothEyes::counts_instances) && stage.facts().places_vertices;
             if counts || both.is_some() && !in_layers.is_empty() {
                 return Err(unsupported(NOT_FOR_BOTH_EYES.to_owned().into()));
@@ -311,7 +323,8 @@ impl ShaderLibrary {
             return Err(unsupported(RefusedStage::beginning(&["gl_ClipDistance"], NOT_AT_SEAM.to_owned())));
         }
         let text = both.map_or_else(|| found.text.clone(), |both| both.around(&found.text, stage));
-        let job = CompileJob { stage, shown: found.shown.clone(), text, macros: macros.clone() };
+        let job =
+            CompileJob { stage, language: None, entry: None, shown: found.shown.clone(), text, macros: macros.clone() };
         let answer = compilers.compile(&job, found, files).map_err(|problem| {
             // A location of the library's own in the text is refused as in the modes in which it compiles.
             let both = both.filter(|both| both.counts_instances());
@@ -330,13 +343,13 @@ impl ShaderLibrary {
 
     fn compile_stage(&mut self, source: &StageSource, key: &StageKey) -> StageResult {
         let CompilerAnswer { spirv, verdict } = self.spirv_of(source, key)?;
-        let StageSource { found, mentioned, module } = source;
+        let StageSource { found, mentioned, code } = source;
         let (_, stage, macros, both, in_layers) = key;
         let stage = *stage;
         let files = &self.sources.files;
         let unsupported = |refused: RefusedStage| ShaderProblem::Unsupported { what: refused.placed(files, found) };
         // A stranger's module is judged before anything is read off it.
-        if let (Some(_), Verdict::Invalid(finding)) = (module, &verdict) {
+        if let (true, Verdict::Invalid(finding)) = (code.is_foreign(), &verdict) {
             return Err(ShaderProblem::Unsupported { what: invalid(finding, files, found) });
         }
         let reflected = reflect(stage, &spirv, tells_parts(macros), both.is_some(), &self.program_sets);
@@ -431,7 +444,7 @@ impl ShaderInterfaces for ShaderLibrary {
 }
 
 /// Why SPIR-V isn't used in a draw for both eyes.
-const NOT_FOR_BOTH_EYES: &str = "it is drawn for both eyes at once, and SPIR-V isn't told which eye it draws for: draw each eye by \
+const NOT_FOR_BOTH_EYES: &str = "it is drawn for both eyes at once, and only GLSL is told which eye it draws for: draw each eye by \
     itself (`multi-pass`), or write it in GLSL";
 
 /// Why a shader's own clip distances aren't used in a draw for both halves.

@@ -65,6 +65,11 @@ pub(super) fn macros(mentioned: &MentionedNames, variant: &Variant, stage: Shade
     own.chain(one).chain(both).collect()
 }
 
+/// Whether a macro means something in GLSL alone.
+pub(super) fn is_of_glsl(name: &str) -> bool {
+    name.starts_with(TEXTURE) || name == PARTS || name == "main" || name == "gl_InstanceIndex"
+}
+
 /// One eye's part of an image that is used in halves. `left` is the left eye's part.
 fn half(left: &str, eye: Option<Eye>) -> String {
     let eye = eye.map_or_else(|| format!("float({EYE})"), |eye| format!("{}.0", eye as u32));

@@ -1,4 +1,4 @@
-//! Messages of the GLSL compiler, with the lines that they speak of.
+//! Messages of the compiler of this program, with the lines that they speak of.
 
 use framewright_graph::base::Quote;
 use framewright_graph::shader::ShaderMessage;
@@ -9,14 +9,18 @@ const MOST: usize = 20;
 /// The messages with the lines that they are about. `text` is the text of a file that was compiled, by the name that messages
 /// show.
 pub(super) fn located<'t>(messages: Vec<String>, text: impl Fn(&str) -> Option<&'t str>) -> Vec<ShaderMessage> {
+    let with_quote = |message: String| ShaderMessage { quote: quote(&message, &text), text: message, limit: None };
+    bounded(messages.into_iter().map(with_quote).collect())
+}
+
+/// The first messages, and how many more there are.
+pub(super) fn bounded(mut messages: Vec<ShaderMessage>) -> Vec<ShaderMessage> {
     let more = messages.len().saturating_sub(MOST);
-    let shown = messages.into_iter().take(MOST);
-    let mut located: Vec<_> =
-        shown.map(|message| ShaderMessage { quote: quote(&message, &text), text: message, limit: None }).collect();
+    messages.truncate(MOST);
     if more > 0 {
-        located.push(ShaderMessage { text: format!("and {more} more"), quote: None, limit: None });
+        messages.push(ShaderMessage { text: format!("and {more} more"), quote: None, limit: None });
     }
-    located
+    messages
 }
 
 /// The line that a message `FILE:LINE: error: WORDS` is about.
@@ -35,7 +39,7 @@ fn quote<'t>(message: &str, text: &impl Fn(&str) -> Option<&'t str>) -> Option<Q
 }
 
 /// The part of a line that a message is about: the token that it names first, or the whole line without the space around it.
-fn underlined(line: &str, words: &str) -> std::ops::Range<usize> {
+pub(super) fn underlined(line: &str, words: &str) -> std::ops::Range<usize> {
     let named = words.strip_prefix('\'').and_then(|rest| rest.split_once('\'')).map(|(token, _)| token);
     let token = named.filter(|token| !token.is_empty()).and_then(|token| {
         let word = |c: char| c.is_alphanumeric() || c == '_';

@@ -1,18 +1,21 @@
-//! Shaders by name: GLSL from folders or shipped with the program, compiled to SPIR-V, and SPIR-V of other compilers; both are
-//! reflected. Needs no device.
+//! Shaders by name: GLSL from folders or shipped with the program, compiled to SPIR-V, files in HLSL, Slang and WGSL, compiled by the
+//! same compiler or by commands, and SPIR-V of other compilers; all are reflected. Needs no device.
 
 mod bindings;
 mod block_layout;
+mod by_command;
 #[cfg(feature = "shader-compiler")]
 mod by_shaderc;
 mod capabilities;
 mod colors;
 mod compile;
+mod compiler_words;
 mod compilers;
 mod coverage;
 mod distances;
 mod extensions;
 mod eyes;
+mod file_stages;
 mod files;
 mod indexing;
 mod layers;
@@ -29,10 +32,13 @@ mod needs;
 mod place_names;
 mod precompiled_shaders;
 mod program_resources;
+mod push_constants;
 mod reflect;
+mod registers;
 mod rotation;
 mod sampler_pairs;
 mod set_layouts;
+mod shader_compilers;
 mod spirv_cache;
 mod stage_sources;
 mod stages;
@@ -43,6 +49,7 @@ mod varyings;
 pub use library::{CompiledCompute, CompiledShader, ShaderLibrary};
 pub use precompiled_shaders::PrecompiledShaders;
 pub use set_layouts::SetLayouts;
+pub use shader_compilers::{BadCompiler, ShaderCompilers};
 pub use stages::Spirv;
 
 pub(crate) use compile::compile;

@@ -1,10 +1,10 @@
-//! SPIR-V that other compilers made: the file is checked, and one entry point is cut out of it.
+//! SPIR-V that other compilers made: it is checked, and one entry point is cut out of it.
 //!
 //! What is cut out looks as if the GLSL compiler had written it: its entry point is `main`, it holds nothing that this one doesn't
 //! reach, and all that a pass gives has a name. So nothing behind here knows of such files.
 
 use super::module::id;
-use super::{module_capabilities, module_checks, module_words, place_names};
+use super::{module_capabilities, module_checks, module_words, place_names, push_constants, registers};
 use crate::base::ShaderStage;
 use framewright_graph::shader::ShaderProblem;
 use rspirv::binary::Assemble;
@@ -32,11 +32,33 @@ impl ModuleFile {
     /// # Errors
     /// In words: it is no SPIR-V, or breaks a rule that every reader relies on.
     pub(super) fn read(bytes: &[u8]) -> Result<ModuleFile, String> {
-        let words = module_words::words(bytes)?;
+        ModuleFile::of_words(module_words::words(bytes)?)
+    }
+
+    /// Reads what a compiler wrote.
+    ///
+    /// # Errors
+    /// Those of [`ModuleFile::read`].
+    pub(super) fn compiled(spirv: &[u32]) -> Result<ModuleFile, String> {
+        let bytes: Vec<u8> = spirv.iter().flat_map(|word| word.to_le_bytes()).collect();
+        ModuleFile::read(&bytes)
+    }
+
+    fn of_words(words: Vec<u32>) -> Result<ModuleFile, String> {
         let mut module = rspirv::dr::load_words(words).map_err(|error| error.to_string())?;
         module_checks::check(&module)?;
         without_groups(&mut module);
         Ok(ModuleFile { module })
+    }
+
+    /// Gives each resource of a pass a binding of its own, where HLSL numbers kinds of registers each from 0 on.
+    pub(super) fn spread_registers(&mut self) {
+        registers::spread(&mut self.module);
+    }
+
+    /// Whether it has one entry point of a stage.
+    pub(super) fn has_one(&self, stage: ShaderStage) -> bool {
+        self.entry_points().filter(|entry| entry.model == stage.facts().model).count() == 1
     }
 
     fn entry_points(&self) -> impl Iterator<Item = EntryPoint<'_>> {
@@ -79,6 +101,7 @@ impl ModuleFile {
         if self.module.entry_points.len() > 1 {
             module_capabilities::leave_out_foreign(&mut module);
         }
+        push_constants::as_params(&mut module);
         place_names::add(&mut module);
         Ok(module.assemble())
     }

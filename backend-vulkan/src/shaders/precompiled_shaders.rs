@@ -53,6 +53,9 @@ impl PrecompiledShaders {
             digest.update(&*text);
         };
         [env!("CARGO_PKG_VERSION"), job.stage.facts().name, &job.text].into_iter().for_each(&mut add);
+        if let Some(language) = job.language {
+            [language.facts().name, job.entry.as_deref().unwrap_or_default()].into_iter().for_each(&mut add);
+        }
         job.macros.iter().flat_map(|(name, value)| [name, value]).for_each(|text| add(text));
         included(files, source).iter().for_each(|file| add(&file.text));
         let digest: String = digest.finalize().iter().take(16).map(|byte| format!("{byte:02x}")).collect();

@@ -86,6 +86,11 @@ impl SpirvCache {
         SpirvCache { folder: cache.spirv(), compiler, bytes: None }
     }
 
+    /// The stages in `cache` that a command of this identity compiled.
+    pub(super) fn of_command(cache: &Cache, identity: String) -> SpirvCache {
+        SpirvCache { folder: cache.spirv(), compiler: identity, bytes: None }
+    }
+
     /// The SPIR-V of a stage, if it was compiled before and `includes` finds the same files as then.
     pub(super) fn find(&self, job: &CompileJob, includes: &mut Includes<'_>) -> Option<CompilerAnswer> {
         let path = self.path(job);
@@ -151,8 +156,8 @@ fn repeated(before: &[Option<u64>], file: Option<u64>) -> Option<usize> {
 }
 
 /// The digest of all that a stage is compiled from, but what it includes.
-fn digest_of(CompileJob { stage, shown: _, text, macros }: &CompileJob) -> u64 {
-    digest(&(stage, unix_lines(text), macros))
+fn digest_of(CompileJob { stage, language, entry, shown: _, text, macros }: &CompileJob) -> u64 {
+    digest(&(stage, language, entry, unix_lines(text), macros))
 }
 
 #[cfg(test)]
@@ -163,7 +168,8 @@ mod tests {
     use std::time::{Duration, SystemTime};
 
     fn job(text: &str) -> CompileJob {
-        CompileJob { stage: ShaderStage::Vertex, shown: "a.vert".to_owned(), text: text.to_owned(), macros: Vec::new() }
+        let (shown, text) = ("a.vert".to_owned(), text.to_owned());
+        CompileJob { stage: ShaderStage::Vertex, language: None, entry: None, shown, text, macros: Vec::new() }
     }
 
     fn compiled(spirv: &[u32]) -> CompilerAnswer {

@@ -1,4 +1,4 @@
-//! The files of stages: GLSL or SPIR-V, found by the names of shaders.
+//! The files of stages: GLSL, or files of other languages, found by the names of shaders.
 
 use super::files::{ShaderFiles, SourceFile};
 use super::mentioned_names::MentionedNames;
@@ -7,7 +7,7 @@ use super::text;
 use crate::base::ShaderStage;
 use framewright_graph::base::{FilePath, NoFile, unix_lines};
 use framewright_graph::frame::Draw;
-use framewright_graph::shader::{ShaderProblem, StageName};
+use framewright_graph::shader::{FileLanguage, ShaderProblem, StageName};
 use std::collections::{BTreeSet, HashMap};
 use std::sync::Arc;
 
@@ -16,8 +16,23 @@ pub(super) struct StageSource {
     pub(super) found: SourceFile,
     /// The names in the file that decide how it is compiled for a pass.
     pub(super) mentioned: MentionedNames,
-    /// The SPIR-V in it; `None`: it is GLSL.
-    pub(super) module: Option<ModuleFile>,
+    pub(super) code: StageCode,
+}
+
+/// What a stage's file holds.
+pub(super) enum StageCode {
+    Glsl,
+    /// SPIR-V.
+    Module(ModuleFile),
+    /// A text in another language.
+    Text(FileLanguage),
+}
+
+impl StageCode {
+    /// Whether an entry point is cut out of a module, which a stranger's compiler may have made.
+    pub(super) const fn is_foreign(&self) -> bool {
+        !matches!(self, StageCode::Glsl)
+    }
 }
 
 /// The files of stages, each read once.
@@ -43,34 +58,44 @@ impl StageSources {
 
     fn find_source(&self, file: &str) -> Result<Option<Arc<StageSource>>, ShaderProblem> {
         let path = FilePath::of_text(file);
-        let (found, module) = if StageName::of_text(file).is_spirv() {
+        let (found, code) = if let Some(FileLanguage::Spirv) = FileLanguage::of_file(file) {
             let Some((found, bytes)) = self.files.find_module(&path)? else { return Ok(None) };
             let bad = |what: String| ShaderProblem::BadModule { what: format!("{}: {what}", found.shown) };
             let module = ModuleFile::read(&bytes).map_err(bad)?;
-            (found, Some(module))
+            (found, StageCode::Module(module))
         } else {
             let Some(found) = self.files.find(&path)? else { return Ok(None) };
-            (found, None)
+            (found, FileLanguage::of_file(file).map_or(StageCode::Glsl, StageCode::Text))
         };
         let mentioned = MentionedNames::by_stage(&self.files, &found);
-        Ok(Some(Arc::new(StageSource { found, mentioned, module })))
+        Ok(Some(Arc::new(StageSource { found, mentioned, code })))
     }
 
     /// As [`super::ShaderLibrary::own_files`].
     pub(super) fn own_files(&self, from: &FilePath, name: &str) -> Vec<Vec<u8>> {
-        if let StageName::Spirv { file, .. } = StageName::of_text(name) {
-            let found = |place: FilePath| self.files.find_module(&place).ok().flatten().map(|(_, bytes)| bytes);
+        if let StageName::File { file, .. } = StageName::of_text(name) {
             let beside =
                 from.beside(&file).ok().filter(|it| it.folder().is_empty() || self.files.may_read(it.folder()));
-            return beside.and_then(found).or_else(|| found(FilePath::Own(file))).into_iter().collect();
+            let mut places = beside.into_iter().chain([FilePath::Own(file.clone())]);
+            if FileLanguage::of_file(&file) != Some(FileLanguage::Spirv) {
+                let found = places.find_map(|place| self.files.find(&place).ok().flatten());
+                return self.texts(found.into_iter());
+            }
+            let found = |place: FilePath| self.files.find_module(&place).ok().flatten().map(|(_, bytes)| bytes);
+            return places.find_map(found).into_iter().collect();
         }
         let stages = ShaderStage::ALL.map(|stage| stage.file_of(name));
         let usual = Draw::usual_vertex_shaders().map(str::to_owned);
         let beside = stages.iter().filter_map(|file| from.beside(file).ok());
         let beside = beside.filter(|file| file.folder().is_empty() || self.files.may_read(file.folder()));
         let places = beside.chain(stages.iter().chain(&usual).map(|file| FilePath::Own((&**file).into())));
+        self.texts(places.filter_map(|file| self.files.find(&file).ok().flatten()))
+    }
+
+    /// The texts of the user's own files among these, and of those that they include.
+    fn texts(&self, found: impl Iterator<Item = SourceFile>) -> Vec<Vec<u8>> {
         let own = |file: &SourceFile| matches!(file.path, FilePath::Own(_));
-        let found = places.filter_map(|file| self.files.find(&file).ok().flatten()).filter(own);
+        let found = found.filter(own);
         let with_included = found.flat_map(|file| {
             let included = text::included(&self.files, &file);
             std::iter::once(file).chain(included)
@@ -93,11 +118,11 @@ impl StageSources {
     ) -> Result<Option<StageName>, ShaderProblem> {
         let (file, entry) = match name {
             StageName::Glsl(name) => (name, None),
-            StageName::Spirv { file, entry } => (file, entry.clone()),
+            StageName::File { file, entry } => (file, entry.clone()),
         };
         let named = |file: &str| match name {
             StageName::Glsl(_) => StageName::Glsl(file.into()),
-            StageName::Spirv { .. } => StageName::Spirv { file: file.into(), entry: entry.clone() },
+            StageName::File { .. } => StageName::File { file: file.into(), entry: entry.clone() },
         };
         let none = |_: NoFile| ShaderProblem::Unsupported { what: format!("`{file}` is no name of a shader") };
         let beside = match from {
@@ -122,8 +147,9 @@ impl StageSources {
         let looked_in = self.files.places(from);
         let known = match name {
             StageName::Glsl(_) => self.files.known_shaders(from, stage.facts().ending),
-            StageName::Spirv { .. } => {
-                self.files.known_shaders(from, ".spv").into_iter().map(|name| name + ".spv").collect()
+            StageName::File { file, .. } => {
+                let ending = FileLanguage::of_file(file).map_or("", |language| language.facts().ending);
+                self.files.known_shaders(from, ending).into_iter().map(|name| name + ending).collect()
             }
         };
         ShaderProblem::Missing { looked_in, known }
@@ -134,6 +160,6 @@ impl StageSources {
 pub(super) fn file_of(name: &StageName, stage: ShaderStage) -> String {
     match name {
         StageName::Glsl(name) => stage.file_of(name),
-        StageName::Spirv { file, .. } => file.to_string(),
+        StageName::File { file, .. } => file.to_string(),
     }
 }

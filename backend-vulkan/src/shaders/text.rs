@@ -1,9 +1,10 @@
-//! The GLSL text of a stage: its words, its lines, and the files that it includes. SPIR-V says what a stage uses, and the
+//! The text of a stage: its words, its lines, and the files that it includes. SPIR-V says what a stage uses, and the
 //! text on which line that stands.
 
 use super::compile::MAX_INCLUDES;
 use super::files::{ShaderFiles, SourceFile};
 use framewright_graph::base::FilePath;
+use framewright_graph::shader::FileLanguage;
 use std::collections::BTreeSet;
 
 /// Why a stage can't be used, and the words of its text that show where.
@@ -99,7 +100,7 @@ fn included_by(stage: &SourceFile, mut read: impl FnMut(&FilePath, &str) -> Opti
         };
         let Some(from) = from else { return all };
         let path = from.path.clone();
-        for name in named_in(&from.text) {
+        for name in named_in(from) {
             if looked_for.len() == MAX_INCLUDES {
                 return all;
             }
@@ -113,9 +114,40 @@ fn included_by(stage: &SourceFile, mut read: impl FnMut(&FilePath, &str) -> Opti
     }
 }
 
-/// The names in a text's `#include` directives.
-fn named_in(text: &str) -> Vec<String> {
-    let text = without_comments(text);
+/// The names in a file's `#include` directives, and the files of the modules that Slang imports.
+fn named_in(file: &SourceFile) -> Vec<String> {
+    let text = without_comments(&file.text);
+    if FileLanguage::of_file(file.path.path()) == Some(FileLanguage::Slang) {
+        return included_in(&text).into_iter().chain(imported_in(&text)).collect();
+    }
+    included_in(&text)
+}
+
+/// The files of the modules that a text in Slang imports or takes in. `a.b_c` is `a/b_c.slang` or `a/b-c.slang`.
+fn imported_in(text: &str) -> Vec<String> {
+    let statements = text.split([';', '\n', '{', '}']).filter_map(|statement| {
+        let mut words = statement.split_whitespace().skip_while(|word| ["public", "__exported"].contains(word));
+        let imports = ["import", "__import", "__include", "implementing"];
+        words.next().filter(|word| imports.contains(word))?;
+        words.next().map(str::to_owned)
+    });
+    let files = statements.flat_map(|named| match named.strip_prefix('"') {
+        Some(file) => {
+            let file = file.trim_end_matches('"');
+            vec![if file.contains('.') { file.to_owned() } else { format!("{file}.slang") }]
+        }
+        None => {
+            let path = named.replace('.', "/");
+            let mut files = vec![format!("{path}.slang"), format!("{}.slang", path.replace('_', "-"))];
+            files.dedup();
+            files
+        }
+    });
+    files.collect()
+}
+
+/// The names in the `#include` directives of a text without comments.
+fn included_in(text: &str) -> Vec<String> {
     let named = text.lines().filter_map(|line| {
         let directive = line.trim_start().strip_prefix('#')?.trim_start().strip_prefix("include")?;
         directive.split(['"', '<', '>']).nth(1).map(str::to_owned)
@@ -147,7 +179,7 @@ pub(super) fn words(text: &str) -> impl Iterator<Item = &str> {
     words.filter(|word| !word.is_empty())
 }
 
-/// A GLSL text with a blank in place of each comment. Lines keep their numbers.
+/// A text with a blank in place of each comment. Lines keep their numbers.
 pub(super) fn without_comments(text: &str) -> String {
     let mut kept = String::with_capacity(text.len());
     let mut rest = text;

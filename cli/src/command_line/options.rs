@@ -11,6 +11,7 @@ pub(crate) fn option(choice: OutsideChoice) -> &'static str {
         OutsideChoice::ShaderTime => "`--shader-seconds` raises it",
         OutsideChoice::ShaderMemory => "`--shader-memory` raises it",
         OutsideChoice::ShaderStack => "`--shader-stack` raises it",
+        OutsideChoice::ShaderCompiler => "`--shader-compiler LANGUAGE=COMMAND` names it",
         OutsideChoice::DrawInterfaces => "`check --interface` reads what the draws of another program bring along",
     }
 }

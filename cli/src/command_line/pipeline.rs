@@ -1,7 +1,8 @@
 //! A pipeline with its settings, and how its Plan is made: what many commands take.
 
-use super::values::{Assignment, Modes, assignment, order, rotation, stereo};
+use super::values::{Assignment, Modes, assignment, order, rotation, shader_compiler, stereo};
 use clap::{Args, ValueEnum};
+use framewright::ShaderCompilers;
 use framewright_graph::compile::{Options, Order};
 use framewright_graph::frame::Stereo;
 use framewright_graph::vulkan::Rotation;
@@ -59,6 +60,11 @@ pub(crate) struct PipelineArguments {
     /// trusted: drivers are given what it holds.
     #[arg(long, value_name = "DIR")]
     pub(crate) precompiled: Option<PathBuf>,
+    /// Have shaders in HLSL, Slang or WGSL compiled by a command: `hlsl=dxc`, `"slang=slangc -O0"`, `wgsl=naga`. Repeatable. It is run
+    /// without a shell. The environment may name them: `FRAMEWRIGHT_HLSL_COMPILER`, `FRAMEWRIGHT_SLANG_COMPILER`,
+    /// `FRAMEWRIGHT_WGSL_COMPILER`. Docs/hlsl.md has more.
+    #[arg(long, value_name = "LANGUAGE=COMMAND", value_parser = shader_compiler)]
+    pub(crate) shader_compiler: Vec<ShaderCompilers>,
     #[command(flatten)]
     pub(crate) caching: CachingArguments,
     #[command(flatten)]

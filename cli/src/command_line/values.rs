@@ -2,6 +2,7 @@
 
 use crate::system::text;
 use clap::ValueEnum;
+use framewright::ShaderCompilers;
 use framewright_graph::compile::Order;
 use framewright_graph::frame::Stereo;
 use framewright_graph::vulkan::Rotation;
@@ -87,6 +88,13 @@ pub(crate) fn assignment(text: &str) -> Result<Assignment, String> {
         Some((name, value)) if !name.is_empty() => Ok(Assignment { name: name.to_owned(), value: value.to_owned() }),
         _ => Err("expected NAME=VALUE, such as msaa=4".to_owned()),
     }
+}
+
+/// Reads the compiler of a language.
+pub(crate) fn shader_compiler(text: &str) -> Result<ShaderCompilers, String> {
+    let mut compilers = ShaderCompilers::default();
+    compilers.set_named(text).map_err(|bad| text::escape(&bad.to_string()))?;
+    Ok(compilers)
 }
 
 /// Reads an order of execution.

@@ -7,7 +7,9 @@ use crate::command_line::values::Size;
 use crate::error::Error;
 use crate::files::inputs::{self, FileRole};
 use crate::system::Exit;
-use framewright::{Choices, DrawInterfaces, Helper, Pipeline, PlannedFrame, PrecompiledShaders, RendererOptions};
+use framewright::{
+    Choices, DrawInterfaces, Helper, Pipeline, PlannedFrame, PrecompiledShaders, RendererOptions, ShaderCompilers,
+};
 use framewright_graph::base::{ReadFiles, Sources};
 use framewright_graph::device::MemoryEstimate;
 use framewright_graph::shader;
@@ -30,12 +32,21 @@ pub(crate) fn options(
     options.draws = draws(arguments, read)?;
     options.helper = Some(helper);
     options.precompiled = precompiled(arguments);
+    options.shader_compilers = compilers(arguments)?;
     Ok(options)
 }
 
 /// The folder of precompiled shaders, if the command line names one. Those that are compiled are added to it.
 pub(crate) fn precompiled(arguments: &PipelineArguments) -> Option<PrecompiledShaders> {
     arguments.precompiled.as_ref().map(|folder| PrecompiledShaders::in_folder(folder).adding())
+}
+
+/// The commands that compile shaders: those of the command line are stronger than those of the environment.
+fn compilers(arguments: &PipelineArguments) -> Result<ShaderCompilers, Error> {
+    let mut compilers =
+        ShaderCompilers::of_environment().map_err(|bad| Error::ShaderCompiler { what: bad.to_string() })?;
+    arguments.shader_compiler.iter().for_each(|stronger| compilers.and(stronger));
+    Ok(compilers)
 }
 
 /// What draws bring along: those of the program whose interface the command line names, or of a scene.

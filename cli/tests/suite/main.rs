@@ -13,6 +13,7 @@ mod choosing;
 mod ci_recipes;
 mod codes;
 mod compare;
+mod compilers;
 mod converged;
 mod deferred;
 mod depth_ladder;

@@ -99,7 +99,7 @@ fn a_sampler_is_given_nothing_and_samples_its_images_alike() {
 
 #[test]
 fn names_that_are_none_of_a_file_are_refused() {
-    checked("\"post.hlsl\"", HLSL, "", "").exits(1).mentions("`post.hlsl` can't be the name of a shader");
+    checked("\"post.metal\"", HLSL, "", "").exits(1).mentions("`post.metal` can't be the name of a shader");
     checked("\"post.spv:\"", HLSL, "", "").exits(1).mentions("`` can't be the name of an entry point");
     checked("\"past.spv\"", HLSL, "", "")
         .exits(1)

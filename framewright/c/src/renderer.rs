@@ -66,6 +66,9 @@ pub struct FramewrightRendererOptions {
     pub sets: *const FramewrightSet,
     /// How many there are.
     pub set_count: usize,
+    /// Commands that compile shaders in HLSL, Slang and WGSL, each with its language: `hlsl=dxc`, `slang=slangc -O0`. Later ones are
+    /// stronger. docs/hlsl.md has more.
+    pub shader_compilers: FramewrightNames,
 }
 
 // SAFETY: it begins with its size, and has integers and pointers alone.
@@ -79,6 +82,7 @@ unsafe impl Structure for FramewrightRendererOptions {
         extensions: FramewrightNames::NONE,
         sets: std::ptr::null(),
         set_count: 0,
+        shader_compilers: FramewrightNames::NONE,
     };
 }
 
@@ -219,6 +223,10 @@ pub unsafe extern "C" fn framewright_renderer_open(
             options.settings = given.settings.texts("settings")?.into_iter().map(Into::into).collect();
             (options.draws, options.set_layouts) = program_sets(given.sets, given.set_count, options.draws)?;
             options.files.extensions = given.extensions.texts("extensions")?.into_iter().map(Into::into).collect();
+            for compiler in given.shader_compilers.texts("shader_compilers")? {
+                let named = options.shader_compilers.set_named(&compiler);
+                named.map_err(|bad| Problem::Misuse(format!("`shader_compilers`: {bad}")))?;
+            }
         }
         let renderer = Renderer::open(&device.device, pipeline, options)?;
         Ok(FramewrightRenderer(Mutex::new(State {

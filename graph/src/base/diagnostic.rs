@@ -53,6 +53,8 @@ pub enum OutsideChoice {
     ShaderMemory,
     /// How much stack compiling a stage of a shader may take.
     ShaderStack,
+    /// The command that compiles HLSL, Slang or WGSL.
+    ShaderCompiler,
     /// The interfaces of the draw source.
     DrawInterfaces,
 }

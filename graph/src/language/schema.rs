@@ -145,8 +145,9 @@ impl Schema {
             PlainForm::Name => self.named("name", |_| name("_")),
             PlainForm::Outside => self.named("outside_name", |_| name("_\\-")),
             PlainForm::Shader => self.named("shader_name", |_| {
-                let spirv = json!({ "type": "string", "pattern": "\\.spv(:[^ ,]+)?$", "maxLength": LONGEST });
-                json!({ "anyOf": [name("_\\-"), spirv] })
+                let pattern = "\\.(spv|hlsl|slang|wgsl)(:[^ ,]+)?$";
+                let file = json!({ "type": "string", "pattern": pattern, "maxLength": LONGEST });
+                json!({ "anyOf": [name("_\\-"), file] })
             }),
         }
     }

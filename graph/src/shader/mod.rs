@@ -37,7 +37,7 @@ pub use program_set::{
     BindingFlags, DescriptorType, ProgramBinding, ProgramResource, ProgramSet, SetFault, bindings_of_read_sets,
     set_needs,
 };
-pub use shader_name::{ShaderName, StageName};
+pub use shader_name::{FileLanguage, LanguageFacts, ShaderName, StageName};
 pub use vertex_layout::{LayoutFault, LocationLayout, VertexInput, VertexLayout};
 
 /// Everything that a shader (all its stages together) uses.
@@ -460,6 +460,17 @@ pub enum ShaderProblem {
         /// Those of other stages, each with its stage.
         others: Box<[(String, &'static str)]>,
     },
+    /// The compiler of its language can't be used, or doesn't do what a compiler does.
+    Compiler {
+        /// The reason, in words.
+        what: String,
+        /// How it is mended.
+        help: String,
+        /// Whether nothing is wrong with any file: it isn't there.
+        of_machine: bool,
+        /// The choice from outside that may mend it.
+        choice: Option<OutsideChoice>,
+    },
     /// Nothing is known of it: the machine doesn't let it be read or compiled.
     Machine {
         /// The reason, in words.
@@ -517,13 +528,13 @@ pub struct Variant {
 }
 
 impl Variant {
-    /// The names by which a pass gives things to the shader `shader`, if it is SPIR-V.
+    /// The names by which a pass gives things to the shader `shader`, if it has stages in files with an ending.
     pub fn given_to<'n>(
         shader: &str,
         bindings: impl Iterator<Item = &'n Arc<str>>,
         params: impl Iterator<Item = &'n Arc<str>>,
     ) -> GivenNames {
-        if !ShaderName::is_spirv(shader) {
+        if !ShaderName::has_file(shader) {
             return GivenNames::default();
         }
         GivenNames { bindings: bindings.cloned().collect(), params: params.cloned().collect() }

@@ -13,6 +13,7 @@ impl ShaderProblem {
             ShaderProblem::Unsupported { .. } => Code::SHADER_UNFIT,
             ShaderProblem::BadModule { .. } => Code::SPIRV_FILE,
             ShaderProblem::EntryPoint { .. } => Code::ENTRY_POINT,
+            ShaderProblem::Compiler { .. } => Code::SHADER_COMPILER,
             ShaderProblem::Machine { .. } => Code::SHADER_MACHINE,
         }
     }
@@ -47,6 +48,15 @@ impl ShaderProblem {
             ShaderProblem::EntryPoint { file, stage, named, of_stage, others } => {
                 let (message, help) = entry_point(file, stage, named.as_deref(), of_stage, others);
                 Diagnostic::new(self.code(), span, message).help(help)
+            }
+            ShaderProblem::Compiler { what, help, of_machine, choice } => {
+                let wrong = Diagnostic::new(self.code(), span, format!("shader `{name}` isn't compiled: {what}"));
+                Diagnostic {
+                    help: (!help.is_empty()).then(|| help.clone()),
+                    choice: *choice,
+                    of_machine: *of_machine,
+                    ..wrong
+                }
             }
             ShaderProblem::Machine { what } => {
                 Diagnostic::new(self.code(), span, format!("shader `{name}` can't be used: {what}")).of_machine()

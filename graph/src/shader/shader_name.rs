@@ -1,14 +1,58 @@
-//! Names of shaders: GLSL by a name for all its stages, and SPIR-V by its file and entry point.
+//! Names of shaders: GLSL by a name for all its stages, and files of other languages by file and entry point.
 
+use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::sync::Arc;
 
-/// The ending of files of SPIR-V.
-const SPIRV: &str = ".spv";
+/// The language of a shader's file that is named with its ending.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum FileLanguage {
+    /// SPIR-V, which is taken as it is.
+    Spirv,
+    /// HLSL.
+    Hlsl,
+    /// Slang.
+    Slang,
+    /// WGSL.
+    Wgsl,
+}
+
+/// What there is to know of a language.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct LanguageFacts {
+    /// Its name.
+    pub name: &'static str,
+    /// The ending of its files.
+    pub ending: &'static str,
+}
+
+impl FileLanguage {
+    /// All of them.
+    pub const ALL: [FileLanguage; 4] =
+        [FileLanguage::Spirv, FileLanguage::Hlsl, FileLanguage::Slang, FileLanguage::Wgsl];
+
+    /// What there is to know of it.
+    #[must_use]
+    pub const fn facts(self) -> LanguageFacts {
+        let (name, ending) = match self {
+            FileLanguage::Spirv => ("SPIR-V", ".spv"),
+            FileLanguage::Hlsl => ("HLSL", ".hlsl"),
+            FileLanguage::Slang => ("Slang", ".slang"),
+            FileLanguage::Wgsl => ("WGSL", ".wgsl"),
+        };
+        LanguageFacts { name, ending }
+    }
+
+    /// The language of a file, by its ending.
+    #[must_use]
+    pub fn of_file(file: &str) -> Option<FileLanguage> {
+        FileLanguage::ALL.into_iter().find(|language| file.ends_with(language.facts().ending))
+    }
+}
 
 /// The shader of a pass.
 ///
-/// It is a text in pipelines' frames and in Plans: `lit`, `post.spv`, `post.spv:PSMain`, or, where stages have names of their own,
+/// It is a text in pipelines' frames and in Plans: `lit`, `post.hlsl:PSMain`, `post.spv`, or, where stages have names of their own,
 /// `vertex mesh.spv:VSMain, fragment glow`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ShaderName {
@@ -28,11 +72,11 @@ pub enum ShaderName {
 pub enum StageName {
     /// GLSL of this name: the file `NAME.vert`, `NAME.frag` or `NAME.comp`.
     Glsl(Arc<str>),
-    /// SPIR-V.
-    Spirv {
-        /// The file, which ends in `.spv`.
+    /// A file that is named with its ending: one of [`FileLanguage`].
+    File {
+        /// The file.
         file: Arc<str>,
-        /// The entry point; `None`: the only one of the stage.
+        /// The entry point; `None`: the only one of the stage, or `main`.
         entry: Option<Arc<str>>,
     },
 }
@@ -51,10 +95,13 @@ impl ShaderName {
         }
     }
 
-    /// Whether the shader of this text has a stage that is SPIR-V.
+    /// Whether the shader of this text has a stage in a file that is named with its ending.
     #[must_use]
-    pub fn is_spirv(text: &str) -> bool {
-        text.contains(SPIRV)
+    pub fn has_file(text: &str) -> bool {
+        match ShaderName::of_text(text) {
+            ShaderName::Whole(stage) => stage.is_file(),
+            ShaderName::Stages { vertex, fragment } => fragment.is_file() || vertex.is_some_and(|it| it.is_file()),
+        }
     }
 
     /// The stage that draws colours, or computes.
@@ -70,18 +117,18 @@ impl StageName {
     /// The stage whose text this is.
     #[must_use]
     pub fn of_text(text: &str) -> StageName {
-        let entry = text.find(".spv:").map(|at| text.split_at(at + SPIRV.len()));
-        match entry {
-            Some((file, entry)) => StageName::Spirv { file: file.into(), entry: Some(entry[1..].into()) },
-            None if text.ends_with(SPIRV) => StageName::Spirv { file: text.into(), entry: None },
+        let mut colons = text.match_indices(':').map(|(at, _)| at);
+        match colons.find(|at| FileLanguage::of_file(&text[..*at]).is_some()) {
+            Some(at) => StageName::File { file: text[..at].into(), entry: Some(text[at + 1..].into()) },
+            None if FileLanguage::of_file(text).is_some() => StageName::File { file: text.into(), entry: None },
             None => StageName::Glsl(text.into()),
         }
     }
 
-    /// Whether it is SPIR-V.
+    /// Whether it is a file that is named with its ending.
     #[must_use]
-    pub const fn is_spirv(&self) -> bool {
-        matches!(self, StageName::Spirv { .. })
+    pub const fn is_file(&self) -> bool {
+        matches!(self, StageName::File { .. })
     }
 }
 
@@ -99,8 +146,8 @@ impl fmt::Display for StageName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             StageName::Glsl(name) => f.write_str(name),
-            StageName::Spirv { file, entry: None } => f.write_str(file),
-            StageName::Spirv { file, entry: Some(entry) } => write!(f, "{file}:{entry}"),
+            StageName::File { file, entry: None } => f.write_str(file),
+            StageName::File { file, entry: Some(entry) } => write!(f, "{file}:{entry}"),
         }
     }
 }
@@ -111,18 +158,21 @@ mod tests {
 
     #[test]
     fn a_shader_is_the_same_after_it_was_written() {
-        let spirv =
-            |file: &str, entry: Option<&str>| StageName::Spirv { file: file.into(), entry: entry.map(Into::into) };
+        let file_of =
+            |file: &str, entry: Option<&str>| StageName::File { file: file.into(), entry: entry.map(Into::into) };
         let glsl = |name: &str| StageName::Glsl(name.into());
         for (text, name) in [
             ("lit", ShaderName::Whole(glsl("lit"))),
             ("shipped:lit", ShaderName::Whole(glsl("shipped:lit"))),
-            ("post.spv", ShaderName::Whole(spirv("post.spv", None))),
-            ("a/post.spv:PS Main::x", ShaderName::Whole(spirv("a/post.spv", Some("PS Main::x")))),
+            ("post.spv", ShaderName::Whole(file_of("post.spv", None))),
+            ("a/post.spv:PS Main::x", ShaderName::Whole(file_of("a/post.spv", Some("PS Main::x")))),
             (
                 "vertex a.spv:VS, fragment b.spv",
-                ShaderName::Stages { vertex: Some(spirv("a.spv", Some("VS"))), fragment: spirv("b.spv", None) },
+                ShaderName::Stages { vertex: Some(file_of("a.spv", Some("VS"))), fragment: file_of("b.spv", None) },
             ),
+            ("post.hlsl:PSMain", ShaderName::Whole(file_of("post.hlsl", Some("PSMain")))),
+            ("post.slang", ShaderName::Whole(file_of("post.slang", None))),
+            ("post.wgsl:main", ShaderName::Whole(file_of("post.wgsl", Some("main")))),
             ("fragment glow", ShaderName::Stages { vertex: None, fragment: glsl("glow") }),
         ] {
             assert_eq!(ShaderName::of_text(text), name);

@@ -56,6 +56,7 @@ fn document(pipeline: &str, read: &ReadFiles) -> Option<Document> {
         allow_outside: false,
         interface: None,
         precompiled: None,
+        shader_compiler: Vec::new(),
         stereo: Modes(vec![Stereo::Off]),
         caching: CachingArguments { no_cache: true },
         limits: ShaderLimits { shader_seconds: 10, shader_memory: 1024, shader_stack: 8 },

@@ -128,7 +128,29 @@ static void pipelines(const FramewrightDevice *device) {
         options.extensions = many;
         WRONG(framewright_renderer_open(device, "forward", &options, &renderer), MISUSE, "`extensions` has ");
         options.extensions = none;
+        options.shader_compilers = many;
+        WRONG(framewright_renderer_open(device, "forward", &options, &renderer), MISUSE, "`shader_compilers` has ");
+        options.shader_compilers = none;
     }
+    options.shader_compilers = (FramewrightNames){.names = &name, .count = 1};
+    WRONG(framewright_renderer_open(device, "forward", &options, &renderer), MISUSE, "`a` names no compiler");
+
+    /* A compiler that the program names is the one that is run. */
+    write_file("post.wgsl", "@fragment fn tinted() -> @location(0) vec4f { return vec4f(1.0); }\n");
+    write_file("wgsl.ron",
+               "Pipeline(version: 1, images: [(name: \"screen\", format: Output, size: Output)], passes: [\n"
+               "    (name: \"post\", draw: FullScreen(\"post.wgsl:tinted\"), color: [\"screen\"]),\n], outputs: [\"screen\"])\n");
+    const char *commands[] = {NULL, "wgsl=no-such-compiler {input} {output}"};
+    const char *said[] = {"no compiler of WGSL is named", "its compiler `no-such-compiler` isn't there"};
+    for (size_t i = 0; i < 2; ++i) {
+        options.shader_compilers = (FramewrightNames){.names = &commands[i], .count = i};
+        FINE(framewright_renderer_open(device, "wgsl.ron", &options, &renderer));
+        FINE(framewright_renderer_set_extent(renderer, 64, 36));
+        WRONG(framewright_renderer_frame(renderer, NULL), MACHINE, said[i]);
+        HOLDS(strcmp(framewright_last_mistake(0)->code, "E1310") == 0);
+        framewright_renderer_free(renderer);
+    }
+    options.shader_compilers = none;
     options.frames_in_flight = UINT32_MAX;
     WRONG(framewright_renderer_open(device, "forward", &options, &renderer), MISUSE, "at most 16 may be on their way");
 

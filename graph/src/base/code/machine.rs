@@ -52,4 +52,10 @@ room! {
     /// It records draws for a pass, imports images and brings along vertices. The message says what it misuses, or has its own
     /// words.
     DRAWING_PROGRAM = 1309,
+
+    /// The compiler of a shader's language can't be used.
+    ///
+    /// HLSL, Slang and WGSL are compiled by a command that you name: `--shader-compiler slang=slangc`, or
+    /// `FRAMEWRIGHT_SLANG_COMPILER`. It isn't there, took too long, failed without a word, or wrote no SPIR-V of version 1.6 or before.
+    SHADER_COMPILER = 1310,
 }

@@ -63,7 +63,10 @@ fn hindrance(
             format!("it doesn't compile: {}", messages.first().map_or("", |message| &message.text))
         }
         Err(
-            ShaderProblem::Unsupported { what } | ShaderProblem::BadModule { what } | ShaderProblem::Machine { what },
+            ShaderProblem::Unsupported { what }
+            | ShaderProblem::BadModule { what }
+            | ShaderProblem::Compiler { what, .. }
+            | ShaderProblem::Machine { what },
         ) => {
             format!("it can't be used: {what}")
         }

@@ -1,4 +1,4 @@
-//! The shader of a pass: GLSL by name, SPIR-V by file and entry point, or a name for each stage.
+//! The shader of a pass: GLSL by name, other languages by file and entry point, or a name for each stage.
 
 use crate::base::Code;
 use crate::fields;
@@ -55,18 +55,18 @@ impl Reader {
         Some(Name { text: shader.to_string().into(), span: leaf.span() })
     }
 
-    /// The name of a stage, or of a shader that has its stages by one name: GLSL, or SPIR-V in a file.
+    /// The name of a stage, or of a shader that has its stages by one name: GLSL, or a file with its ending.
     pub(crate) fn stage(&mut self, leaf: Leaf<'_>) -> Option<Name> {
-        let spirv =
-            leaf.plain().filter(|text| matches!(leaf.shape(), Shape::Text) && StageName::of_text(text).is_spirv());
-        let Some(text) = spirv else { return self.outside_name(leaf, "a shader") };
+        let file =
+            leaf.plain().filter(|text| matches!(leaf.shape(), Shape::Text) && StageName::of_text(text).is_file());
+        let Some(text) = file else { return self.outside_name(leaf, "a shader") };
         let entry = match StageName::of_text(text) {
-            StageName::Spirv { entry: Some(entry), .. } => entry,
-            StageName::Spirv { entry: None, .. } | StageName::Glsl(_) => "main".into(),
+            StageName::File { entry: Some(entry), .. } => entry,
+            StageName::File { entry: None, .. } | StageName::Glsl(_) => "main".into(),
         };
         if text.len() > LONGEST || text.contains(char::is_control) {
             let message =
-                format!("this can't name SPIR-V: names have up to {LONGEST} bytes, and no control characters");
+                format!("this can't name a shader's file: names have up to {LONGEST} bytes, and no control characters");
             self.wrong(Code::NAME_FORM, leaf, message, "");
             return None;
         }

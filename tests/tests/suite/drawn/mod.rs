@@ -25,6 +25,7 @@ mod far_plane;
 mod filters;
 mod fxaa;
 mod hdr10;
+mod hlsl;
 mod image_quality;
 mod incidents;
 mod left_alone;

@@ -1,0 +1,58 @@
+//! Stages in files that are named with their endings: an entry point is cut out of SPIR-V, which is the file's own or compiled first.
+
+use super::by_command;
+use super::compilers::Compilers;
+use super::files::ShaderFiles;
+use super::macros::{Macros, is_of_glsl};
+use super::module_file::ModuleFile;
+use super::stage_sources::{StageCode, StageSource};
+use crate::base::ShaderStage;
+use crate::process::CompileJob;
+use framewright_graph::shader::{FileLanguage, ShaderProblem};
+
+/// A stage that is wanted of a file.
+pub(super) struct FileStage<'s> {
+    pub(super) file: &'s str,
+    /// `None`: the only one of the stage, or in HLSL `main`.
+    pub(super) entry: Option<&'s str>,
+    pub(super) stage: ShaderStage,
+    pub(super) macros: &'s Macros,
+}
+
+impl FileStage<'_> {
+    /// Its SPIR-V, as the compiler of GLSL would have written it.
+    ///
+    /// # Errors
+    /// What is wrong with the file, or with its compiler.
+    pub(super) fn compiled(
+        &self,
+        source: &StageSource,
+        compilers: &mut Compilers,
+        files: &ShaderFiles,
+    ) -> Result<Vec<u32>, ShaderProblem> {
+        let FileStage { file, entry, stage, macros } = *self;
+        let language = match &source.code {
+            StageCode::Module(module) => return module.cut(file, stage, entry),
+            StageCode::Text(language) => *language,
+            StageCode::Glsl => return Err(ShaderProblem::Unsupported { what: format!("{file}: it is GLSL") }),
+        };
+        let found = &source.found;
+        let entry = entry.or((language == FileLanguage::Hlsl).then_some("main"));
+        let job = CompileJob {
+            stage,
+            language: Some(language),
+            entry: entry.map(str::to_owned),
+            shown: found.shown.clone(),
+            text: found.text.clone(),
+            macros: macros.iter().filter(|(name, _)| !is_of_glsl(name)).cloned().collect(),
+        };
+        let answer = compilers.compile(&job, found, files)?;
+        let bad = |what: String| by_command::wrote_no_module(compilers.name_of(language), &what);
+        let mut module = ModuleFile::compiled(&answer.spirv).map_err(bad)?;
+        if language == FileLanguage::Hlsl {
+            module.spread_registers();
+        }
+        // Compilers that are told of one entry point may call it `main`.
+        module.cut(file, stage, entry.filter(|_| !module.has_one(stage)))
+    }
+}

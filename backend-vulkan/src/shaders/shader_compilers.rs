@@ -1,0 +1,346 @@
+//! Commands that compile HLSL, Slang and WGSL, as the user or the program names them. No pipeline names one: files may be a stranger's.
+
+use crate::base::ShaderStage;
+use framewright_graph::base::nearest;
+use framewright_graph::shader::FileLanguage;
+use std::collections::BTreeMap;
+use std::env;
+use std::path::{Path, PathBuf};
+
+/// The commands that compile shaders in HLSL, Slang and WGSL. Without one, HLSL is compiled by shaderc, and Slang and WGSL aren't.
+///
+/// A command is run without a shell, in a folder of its own that holds the shader and what it includes, with nothing on its standard
+/// input, and within the limits of a [`Helper`](crate::Helper).
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct ShaderCompilers {
+    commands: BTreeMap<FileLanguage, CompilerCommand>,
+}
+
+/// Why a command can't be a compiler.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct BadCompiler(String);
+
+/// A command.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct CompilerCommand {
+    /// As it was named.
+    text: String,
+    program: String,
+    /// What stands behind the program: words of the user's, then those of a known compiler.
+    words: Vec<String>,
+    /// Words that only a named entry point asks for.
+    of_entry: &'static [&'static str],
+}
+
+/// A compiler whose arguments are known.
+struct KnownCompiler {
+    name: &'static str,
+    languages: &'static [FileLanguage],
+    arguments: &'static [&'static str],
+    of_entry: &'static [&'static str],
+    /// Where it comes from.
+    from: &'static str,
+}
+
+/// What stands for something in an argument.
+const INPUT: &str = "{input}";
+const OUTPUT: &str = "{output}";
+const FOLDER: &str = "{folder}";
+const MACRO: &str = "{macro}";
+
+const KNOWN: [KnownCompiler; 5] = [
+    KnownCompiler {
+        name: "dxc",
+        languages: &[FileLanguage::Hlsl],
+        arguments: &[
+            "-spirv",
+            "-fspv-target-env=vulkan1.3",
+            "-T",
+            "{profile}",
+            "-E",
+            "{entry}",
+            "-I",
+            FOLDER,
+            "-D",
+            MACRO,
+            "-Fo",
+            OUTPUT,
+            INPUT,
+        ],
+        of_entry: &[],
+        from: "the Vulkan SDK has it",
+    },
+    KnownCompiler {
+        name: "glslangValidator",
+        languages: &[FileLanguage::Hlsl],
+        arguments: &[
+            "-D",
+            "-V",
+            "--target-env",
+            "vulkan1.3",
+            "-S",
+            "{ending}",
+            "-e",
+            "{entry}",
+            "--auto-map-bindings",
+            "-I{folder}",
+            "-D{macro}",
+            "-o",
+            OUTPUT,
+            INPUT,
+        ],
+        of_entry: &[],
+        from: "on Debian and Ubuntu `apt install glslang-tools` installs it",
+    },
+    KnownCompiler {
+        name: "glslc",
+        languages: &[FileLanguage::Hlsl],
+        arguments: &[
+            "-x",
+            "hlsl",
+            "-fshader-stage={stage}",
+            "-fentry-point={entry}",
+            "--target-env=vulkan1.3",
+            "-fauto-bind-uniforms",
+            "-I",
+            FOLDER,
+            "-D{macro}",
+            "-o",
+            OUTPUT,
+            INPUT,
+        ],
+        of_entry: &[],
+        from: "on Debian and Ubuntu `apt install glslc` installs it",
+    },
+    KnownCompiler {
+        name: "slangc",
+        languages: &[FileLanguage::Slang, FileLanguage::Hlsl],
+        arguments: &[INPUT, "-target", "spirv", "-fvk-use-entrypoint-name", "-I", FOLDER, "-D{macro}", "-o", OUTPUT],
+        of_entry: &["-entry", "{entry}", "-stage", "{stage}"],
+        from: "the Vulkan SDK has it, and https://github.com/shader-slang/slang/releases",
+    },
+    KnownCompiler {
+        name: "naga",
+        languages: &[FileLanguage::Wgsl],
+        arguments: &[INPUT, OUTPUT],
+        of_entry: &[],
+        from: "`cargo install naga-cli` installs it",
+    },
+];
+
+/// What a compiler is told of a stage.
+pub(super) struct Told<'t> {
+    pub(super) stage: ShaderStage,
+    pub(super) entry: Option<&'t str>,
+    pub(super) macros: &'t [(String, String)],
+    pub(super) folders: &'t [String],
+    pub(super) input: &'t str,
+    pub(super) output: &'t str,
+}
+
+impl ShaderCompilers {
+    /// The compilers that the environment names: `FRAMEWRIGHT_HLSL_COMPILER`, `FRAMEWRIGHT_SLANG_COMPILER` and
+    /// `FRAMEWRIGHT_WGSL_COMPILER`.
+    ///
+    /// # Errors
+    /// Those of [`ShaderCompilers::set`], with the variable.
+    pub fn of_environment() -> Result<ShaderCompilers, BadCompiler> {
+        let mut compilers = ShaderCompilers::default();
+        for language in FileLanguage::ALL.into_iter().filter(|it| *it != FileLanguage::Spirv) {
+            let variable = format!("FRAMEWRIGHT_{}_COMPILER", word(language).to_uppercase());
+            if let Some(command) = env::var_os(&variable).filter(|command| !command.is_empty()) {
+                let set = compilers.set(language, &command.to_string_lossy());
+                set.map_err(|BadCompiler(what)| BadCompiler(format!("{variable}: {what}")))?;
+            }
+        }
+        Ok(compilers)
+    }
+
+    /// Has shaders of a language compiled by a command: a program and arguments, divided by spaces; what stands in `"` is one of
+    /// them.
+    ///
+    /// Of `dxc`, `glslangValidator`, `glslc`, `slangc` and `naga` the arguments are known: those in the command come before them. Of
+    /// others the command has all: `{input}` and `{output}` stand for files, `{entry}` for the entry point, `{stage}` for `vertex`,
+    /// `fragment` or `compute`, `{ending}` for `vert`, `frag` or `comp`, `{profile}` for one as `ps_6_6`. An argument with `{macro}` or
+    /// `{folder}` is repeated for each macro `NAME=VALUE` and each folder of includes.
+    ///
+    /// # Errors
+    /// It has no program, or no arguments are known for it.
+    pub fn set(&mut self, language: FileLanguage, command: &str) -> Result<(), BadCompiler> {
+        let command = CompilerCommand::of(language, command).map_err(BadCompiler)?;
+        self.commands.insert(language, command);
+        Ok(())
+    }
+
+    /// Does the same with the language and the command in one text: `slang=slangc -O0`.
+    ///
+    /// # Errors
+    /// Those of [`ShaderCompilers::set`]; or it names no such language.
+    pub fn set_named(&mut self, text: &str) -> Result<(), BadCompiler> {
+        let bad = |what: String| Err(BadCompiler(what));
+        let words = ["hlsl", "slang", "wgsl"];
+        let Some((named, command)) = text.split_once('=') else {
+            return bad(format!("`{text}` names no compiler: write a language and a command, `slang=slangc`"));
+        };
+        let language = FileLanguage::ALL.into_iter().find(|it| *it != FileLanguage::Spirv && word(*it) == named);
+        let Some(language) = language else {
+            let meant =
+                nearest(named, words.into_iter()).map_or_else(String::new, |it| format!("; did you mean `{it}`?"));
+            return bad(format!("`{named}` is no language that is compiled so: {} are{meant}", words.join(", ")));
+        };
+        self.set(language, command)
+    }
+
+    /// Takes over the commands of others, which are stronger.
+    pub fn and(&mut self, stronger: &ShaderCompilers) {
+        self.commands.extend(stronger.commands.clone());
+    }
+
+    pub(super) fn of(&self, language: FileLanguage) -> Option<&CompilerCommand> {
+        self.commands.get(&language)
+    }
+}
+
+impl CompilerCommand {
+    fn of(language: FileLanguage, text: &str) -> Result<CompilerCommand, String> {
+        let mut words = divided(text)?.into_iter();
+        let Some(program) = words.next() else { return Err("the command is empty".to_owned()) };
+        let mut words: Vec<String> = words.collect();
+        let mut of_entry: &[&str] = &[];
+        if !words.iter().any(|word| word.contains(INPUT)) {
+            let Some(known) = known(&program) else {
+                return Err(format!(
+                    "the arguments of `{program}` aren't known: write them, as in `{program} -E {{entry}} -o {{output}} {{input}}`"
+                ));
+            };
+            if !known.languages.contains(&language) {
+                return Err(format!("`{}` doesn't compile {}", known.name, language.facts().name));
+            }
+            words.extend(known.arguments.iter().map(|word| (*word).to_owned()));
+            of_entry = known.of_entry;
+        }
+        if !words.iter().any(|word| word.contains(OUTPUT)) {
+            return Err(format!(
+                "the arguments of `{program}` don't say where it writes: `{OUTPUT}` stands for that file"
+            ));
+        }
+        Ok(CompilerCommand { text: text.to_owned(), program, words, of_entry })
+    }
+
+    /// The program, as it was named.
+    pub(super) fn program(&self) -> &str {
+        &self.program
+    }
+
+    /// The file of the program, if there is one.
+    pub(super) fn file(&self) -> Option<PathBuf> {
+        let program = Path::new(&self.program);
+        let with_suffix = |path: PathBuf| {
+            let named = PathBuf::from(format!("{}{}", path.display(), env::consts::EXE_SUFFIX));
+            [path, named].into_iter().find(|path| path.is_file())
+        };
+        if program.components().count() > 1 {
+            return std::path::absolute(program).ok().and_then(with_suffix);
+        }
+        let folders = env::var_os("PATH")?;
+        env::split_paths(&folders).find_map(|folder| with_suffix(folder.join(program)))
+    }
+
+    /// Where the program comes from, if that is known.
+    pub(super) fn from(&self) -> Option<&'static str> {
+        known(&self.program).map(|known| known.from)
+    }
+
+    /// All that decides what it makes of a stage, but the program itself.
+    pub(super) fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// The arguments for a stage.
+    pub(super) fn arguments(&self, told: &Told<'_>) -> Vec<String> {
+        let facts = told.stage.facts();
+        let macros: Vec<String> = told.macros.iter().map(|(name, value)| defined(name, value)).collect();
+        let of_entry = told.entry.map_or(&[][..], |_| self.of_entry).iter().copied();
+        let words: Vec<&str> = self.words.iter().map(String::as_str).chain(of_entry).collect();
+        let mut arguments = Vec::new();
+        let mut at = 0;
+        while let Some(word) = words.get(at) {
+            // `-I {folder}` is repeated as a whole, and so is `-I{folder}`.
+            let next = words.get(at + 1).copied();
+            let repeated = |word: &str| word.contains(FOLDER) || word.contains(MACRO);
+            let pair =
+                word.starts_with('-') && !repeated(word) && next.is_some_and(|next| [FOLDER, MACRO].contains(&next));
+            let (flag, word) = if pair { (Some(*word), next.unwrap_or_default()) } else { (None, *word) };
+            at += if pair { 2 } else { 1 };
+            let values: &[String] = match word {
+                word if word.contains(FOLDER) => told.folders,
+                word if word.contains(MACRO) => &macros,
+                _ => &[],
+            };
+            if repeated(word) {
+                for value in values {
+                    arguments.extend(flag.map(str::to_owned));
+                    arguments.push(word.replace(FOLDER, value).replace(MACRO, value));
+                }
+                continue;
+            }
+            let put = [
+                (INPUT, told.input),
+                (OUTPUT, told.output),
+                ("{entry}", told.entry.unwrap_or("main")),
+                ("{stage}", facts.name),
+                ("{ending}", facts.ending.trim_start_matches('.')),
+                ("{profile}", profile(told.stage)),
+            ];
+            let put = put.iter().fold(word.to_owned(), |word, (name, value)| word.replace(name, value));
+            arguments.push(put);
+        }
+        arguments
+    }
+}
+
+/// A language as options name it.
+fn word(language: FileLanguage) -> &'static str {
+    language.facts().ending.trim_start_matches('.')
+}
+
+fn profile(stage: ShaderStage) -> &'static str {
+    match stage {
+        ShaderStage::Vertex => "vs_6_6",
+        ShaderStage::Fragment => "ps_6_6",
+        ShaderStage::Compute => "cs_6_6",
+    }
+}
+
+/// The compiler of this name, whatever folder it lies in.
+fn known(program: &str) -> Option<&'static KnownCompiler> {
+    let name = Path::new(program).file_stem()?.to_str()?;
+    let name = if name == "glslang" { "glslangValidator" } else { name };
+    KNOWN.iter().find(|known| known.name == name)
+}
+
+/// A macro as compilers are told of it.
+fn defined(name: &str, value: &str) -> String {
+    format!("{name}={value}")
+}
+
+/// The words of a command: divided by spaces, but where they stand in `"`.
+fn divided(text: &str) -> Result<Vec<String>, String> {
+    let (mut words, mut word, mut quoted) = (Vec::new(), None::<String>, false);
+    for letter in text.chars() {
+        match letter {
+            '"' => {
+                quoted = !quoted;
+                word.get_or_insert_default();
+            }
+            letter if letter.is_whitespace() && !quoted => words.extend(word.take()),
+            letter => word.get_or_insert_default().push(letter),
+        }
+    }
+    if quoted {
+        return Err(format!("a `\"` has no second one: {text}"));
+    }
+    words.extend(word);
+    Ok(words)
+}
