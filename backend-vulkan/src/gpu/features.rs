@@ -14,7 +14,7 @@ pub(crate) struct Features {
     pub(super) v1_2: vk::PhysicalDeviceVulkan12Features<'static>,
     pub(super) v1_3: vk::PhysicalDeviceVulkan13Features<'static>,
     local_read: vk::PhysicalDeviceDynamicRenderingLocalReadFeaturesKHR<'static>,
-    barycentric: vk::PhysicalDeviceFragmentShaderBarycentricFeaturesKHR<'static>,
+    pub(super) barycentric: vk::PhysicalDeviceFragmentShaderBarycentricFeaturesKHR<'static>,
     subgroups: Subgroups,
 }
 
