@@ -142,12 +142,13 @@ fn compressed_images_are_only_sampled_and_filled_from_outside() {
     assert_eq!(missing, ["`wood` can't be BC7_UNORM_BLOCK on `a device for tests`: no SAMPLED"]);
     let mut cleared = given.clone();
     let mut fill = Pass::new("wipe", Work::Fill { value: framewright_graph::vulkan::FillValue::Color([0.0; 4]) });
-    fill.transfer = vec![TransferUse {
+    fill.transfers = vec![TransferUse {
         resource: Resource::Image(ImageIndex(0)),
         range: Subresources::WHOLE,
         span: Span::NONE,
         frames_ago: 0,
         write: true,
+        keeps: false,
     }];
     cleared.passes.insert(0, fill);
     let errors = refused(&cleared);
