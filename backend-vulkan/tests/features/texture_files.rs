@@ -142,10 +142,28 @@ fn blocks(format: Format, bytes: u64) -> Vec<u8> {
             Format::BC7_UNORM_BLOCK | Format::BC7_SRGB_BLOCK if block[0] == 0 => block[0] = 1,
             // The mode of two endpoints of 10 bits; other values of five bits may be reserved.
             Format::BC6H_UFLOAT_BLOCK | Format::BC6H_SFLOAT_BLOCK => block[0] = block[0] & !31 | 3,
+            _ if format.feature() == Some("textureCompressionASTC_LDR") => astc(block),
             _ => {}
         }
     }
     blocks
+}
+
+/// Makes a random block a valid one of ASTC: 4 × 4 weights of two bits, and one to four partitions of random colours.
+fn astc(block: &mut [u8]) {
+    let bits = u128::from_le_bytes(block.try_into().expect("16 bytes"));
+    let (partitions, seed) = (bits >> 126, (bits >> 100) & 1023);
+    // Luminance, with alpha, a scaled colour, two colours, with alpha: each directly and by an offset.
+    let ends = match partitions {
+        0 | 1 => [0, 1, 4, 5, 6, 8, 9, 10, 12, 13][(bits >> 110) as usize % 10],
+        2 => 8,
+        _ => 4,
+    };
+    let (head, used) = match partitions {
+        0 => (0x42 | ends << 13, 17),
+        _ => (0x42 | partitions << 11 | seed << 13 | ends << 25, 29),
+    };
+    block.copy_from_slice(&(bits >> used << used | head).to_le_bytes());
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Images whose texels come from a file: their description in a frame, and the source of the texels.
 
 use crate::frame::{Image, Lifetime};
-use crate::vulkan::{Format, Numeric, Shape, extent_at, name_of};
+use crate::vulkan::{Format, Numeric, Shape, extent_at};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -286,10 +286,11 @@ pub const fn picture_extent([width, height, depth]: [u32; 3]) -> [u32; 2] {
 }
 
 /// The words for a texture of a shape.
-fn shape_words(shape: Shape) -> String {
+const fn shape_words(shape: Shape) -> &'static str {
     match shape {
-        Shape::Cube => "a cube".to_owned(),
-        Shape::D2 | Shape::D3 => format!("a texture of shape {}", name_of(&shape)),
+        Shape::Cube => "a cube",
+        Shape::D2 => "a two-dimensional texture",
+        Shape::D3 => "a three-dimensional texture",
     }
 }
 

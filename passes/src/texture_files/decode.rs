@@ -138,6 +138,10 @@ fn block(format: Format, data: &[u8], texels: &mut [[f32; 4]; LARGEST]) {
     if format.components() == 3 {
         texels.iter_mut().for_each(|texel| texel[3] = 1.0);
     }
+    // The decoder keeps colours of texels that are transparent, which are black.
+    if matches!(format, ETC2_R8G8B8A1_UNORM_BLOCK | ETC2_R8G8B8A1_SRGB_BLOCK) {
+        texels.iter_mut().filter(|texel| texel[3] == 0.0).for_each(|texel| *texel = [0.0; 4]);
+    }
 }
 
 /// Decodes one component of a block of EAC, with 11 bits; `set` is told the number of a texel, row after row.

@@ -201,7 +201,7 @@ fn a_radiance_file_may_begin_with_the_name_of_any_program() {
     let texels = |bytes: Vec<u8>| {
         let (_folder, mut textures) = folder(&[("a.hdr", bytes)]);
         let file = file("a.hdr", Linear);
-        assert_eq!(textures.info(&file)?.extent, [9, 2]);
+        assert_eq!(textures.info(&file)?.extent, [9, 2, 1]);
         textures.texels(&file, &WantedTexels::picture(Format::R32G32B32A32_SFLOAT, [9, 2, 1]))
     };
     let expected = texels(usual.clone()).expect("texels");

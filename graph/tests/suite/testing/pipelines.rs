@@ -3,7 +3,7 @@
 use super::table::Table;
 use framewright_graph::base::{self, Diagnostic, FilePath, Sources};
 use framewright_graph::expand::{Inputs, expand};
-use framewright_graph::frame::{Frame, Stereo, TextureFile, TextureInfo, TextureProblem};
+use framewright_graph::frame::{ColorSpace, Frame, Stereo, TextureFile, TextureInfo, TextureProblem};
 use framewright_graph::language::{self, Facts, Files, FoundFile, NoFiles, ReadFailure};
 use framewright_graph::vulkan::{Format, Rotation};
 use std::sync::Arc;
@@ -46,6 +46,31 @@ impl Pictures {
             "grain.png" | "looks/grain.png" => ([64, 32], Format::R8G8B8A8_UNORM),
             "photo.png" => ([800, 600], Format::R8G8B8A8_SRGB),
             "strip.png" => ([256, 16], Format::R16G16B16A16_UNORM),
+            "box.ktx2" => {
+                let box_of = TextureInfo::picture([8, 8], Format::BC7_SRGB_BLOCK);
+                let color_space = Some(ColorSpace::Srgb);
+                return Ok(TextureInfo { mips: 4, layers: 6, cube: true, stored: true, color_space, ..box_of });
+            }
+            "normals.dds" => {
+                let normals = TextureInfo::picture([6, 4], Format::BC5_UNORM_BLOCK);
+                return Ok(TextureInfo {
+                    mips: 2,
+                    layers: 3,
+                    stored: true,
+                    color_space: Some(ColorSpace::Linear),
+                    ..normals
+                });
+            }
+            "deep.ktx2" => {
+                let deep = TextureInfo::picture([8, 8], Format::ASTC_4x4_SRGB_BLOCK);
+                return Ok(TextureInfo {
+                    extent: [8, 8, 4],
+                    stored: true,
+                    color_space: Some(ColorSpace::Srgb),
+                    ..deep
+                });
+            }
+            "basis.ktx2" => return Err(TextureProblem::Basis { what: "UASTC" }),
             "damaged.png" => return Err(TextureProblem::Damaged { reason: "unexpected end of file".to_owned() }),
             _ => {
                 return Err(TextureProblem::Unreadable { reason: "No such file or directory (os error 2)".to_owned() });
