@@ -232,7 +232,8 @@ fn a_pass_that_samples_its_own_target_reads_what_stood_there_before_it() {
     let target = |image| framewright_tests::random_pipelines::pipeline::Target {
         part: whole(image),
         clear: None,
-        blend: framewright_graph::frame::Blend::Replace, write_mask: Default::default(),
+        blend: framewright_graph::frame::Blend::Replace,
+        write_mask: Default::default(),
     };
     let draw = |image, reads| Draw {
         geometry: Geometry::FullScreen,
