@@ -11,8 +11,7 @@ use crate::plan::{Access, Attachment, BindingKind, BufferAccess, Image, Pass, Re
 use crate::shader::MOST_PARTS;
 use crate::vulkan::{
     Accesses, AddressMode, Aspects, CompareOp, Component, Dimension, ImageShape, Layout, PrimitiveTopology, Sampler,
-    Shape, Stages,
-    StencilOp, name_of,
+    Shape, Stages, StencilOp, name_of,
 };
 
 const STORAGE: Accesses = Accesses::SHADER_STORAGE_READ.union(Accesses::SHADER_STORAGE_WRITE);
