@@ -176,6 +176,8 @@ typedef struct {
     uint64_t frame;
     // Leads `framewright_pass_image` and `framewright_pass_buffer` to what the pass accesses.
     const FramewrightResources *resources;
+    // The queue family that the commands are for: that for graphics, or that for compute if the pipeline says `queue: Any`.
+    uint32_t queue_family;
 } FramewrightPass;
 
 // An image that a pass accesses.

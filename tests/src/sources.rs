@@ -41,8 +41,8 @@ pub const KINDS: [Kind; 5] = [
 
 /// The sets of flags.
 pub const FLAGS: [Kind; 2] = [
-    Kind { name: "Stages", within: "", owners: &["graph/src/vulkan/", "graph/src/verify/"], others: 20 },
-    Kind { name: "Accesses", within: "", owners: &["graph/src/vulkan/", "graph/src/verify/"], others: 10 },
+    Kind { name: "Stages", within: "", owners: &["graph/src/vulkan/", "graph/src/verify/"], others: 22 },
+    Kind { name: "Accesses", within: "", owners: &["graph/src/vulkan/", "graph/src/verify/"], others: 11 },
 ];
 
 impl Kind {

@@ -55,3 +55,33 @@ fn what_nobody_hands_in_is_zero_and_said() {
     let picture = image::open(place.path("a.png")).expect("a picture").into_rgb8();
     assert!(picture.pixels().all(|pixel| pixel.0 == [0; 3]));
 }
+
+/// DO-8: what a custom pass declares is checked at its place, for every device.
+#[test]
+fn declared_uses_are_checked_where_they_stand() {
+    let place = Place::new();
+    let declared = |uses: &str| {
+        format!(
+            "Pipeline(version: 1, {TITLE},\n    (name: \"mask\", format: R16G16B16A16_SFLOAT, size: Output)],\n    passes: [\n        \
+             (name: \"mine\", custom: \"mask\", writes: [\"mask\"], queue: Any, uses: [\n            {uses}]),\n        \
+             (name: \"show\", draw: FullScreen(\"copy\"), sample: {{\"source\": \"mask\"}}, color: [\"screen\"])],\n    \
+             outputs: [\"screen\"])"
+        )
+    };
+    let right = "(image: \"mask\", stages: [COMPUTE_SHADER], accesses: [SHADER_STORAGE_WRITE], layout: GENERAL)";
+    place.file("p.ron", declared(right));
+    place.run(&["check", "p.ron", "--device", "all"]).exits(0);
+    let tree = place.run(&["inspect", "p.ron", "--verbose"]).exits(0).out;
+    assert!(tree.contains("before SHADER_STORAGE_WRITE in COMPUTE_SHADER"), "{tree}");
+    for (wrong, said) in [
+        (right.replace("COMPUTE_SHADER", "COPY"), "SHADER_STORAGE_WRITE doesn't happen in COPY [E0720]"),
+        (right.replace("GENERAL", "TRANSFER_DST_OPTIMAL"), "doesn't happen in the layout TRANSFER_DST_OPTIMAL [E0720]"),
+        (right.replace("mask", "screen"), "the pass names no such part of `screen` [E0720]"),
+    ] {
+        place.file("p.ron", declared(&wrong));
+        let err = place.run(&["check", "p.ron"]).exits(1).err;
+        assert!(err.contains(said) && err.contains("p.ron:5:13"), "{err}");
+    }
+    place.file("p.ron", declared(&right.replace("COMPUTE_SHADER", "COMPUTE")));
+    place.run(&["check", "p.ron"]).exits(1).mentions("p.ron:5:37").mentions("COMPUTE_SHADER");
+}

@@ -366,10 +366,17 @@ impl Use {
     pub(super) const SEVERAL: SubresourceIndex = u32::MAX;
 
     /// The usage that it takes of an image.
-    pub(super) fn image_usage(&self) -> Usage {
-        match self.role.is_declared() {
-            false => self.role.usage(),
-            true => self.accesses.image_usage() | self.layout.usage(),
+    pub(super) fn usage(&self) -> Usage {
+        match self.role {
+            Role::Sampled => AccessKind::Sampled.usage(),
+            Role::Input => AccessKind::InputAttachment.usage(),
+            Role::Storage => AccessKind::Storage.usage(),
+            Role::Color => AccessKind::ColorAttachment.usage(),
+            Role::Depth | Role::Stencil => AccessKind::DepthAttachment.usage(),
+            Role::Source => AccessKind::TransferSource.usage(),
+            Role::Target => AccessKind::TransferTarget.usage(),
+            Role::Declared => self.accesses.image_usage() | self.layout.usage(),
+            Role::Buffer => Usage::empty(),
         }
     }
 }
@@ -455,20 +462,6 @@ impl Role {
     /// Whether it is an attachment of a rendering scope.
     pub(super) fn is_attachment(self) -> bool {
         self.attachment().is_some()
-    }
-
-    /// The usage that it takes of an image; what is declared takes that of its accesses and its layout.
-    fn usage(self) -> Usage {
-        match self {
-            Role::Sampled => AccessKind::Sampled.usage(),
-            Role::Input => AccessKind::InputAttachment.usage(),
-            Role::Storage => AccessKind::Storage.usage(),
-            Role::Color => AccessKind::ColorAttachment.usage(),
-            Role::Depth | Role::Stencil => AccessKind::DepthAttachment.usage(),
-            Role::Source => AccessKind::TransferSource.usage(),
-            Role::Target => AccessKind::TransferTarget.usage(),
-            Role::Buffer | Role::Declared => Usage::empty(),
-        }
     }
 }
 

@@ -10,7 +10,7 @@ use super::passes::CommandSource;
 use super::structure::is_of_file;
 use super::work::{Check, is_read_only, is_written};
 use crate::frame::BufferRole;
-use crate::plan::{Access, BindingKind, BufferAccess, Pass, Queue};
+use crate::plan::{Access, BufferAccess, Pass, Queue};
 use crate::vulkan::{Accesses, Layout, Stages, name_of};
 
 /// Accesses that are no command's, or say nothing of what it does.
@@ -70,7 +70,7 @@ impl Check<'_, '_> {
         self.demand(image.samples == 1 || !accesses.intersects(STORAGE), id, "has several samples and is storage");
         let writes = !accesses.writes().is_empty();
         self.demand(!writes || !is_of_file(image), id, "is written, and its contents are a file's");
-        let sampled = access.binding.as_ref().is_some_and(|binding| matches!(binding.kind, BindingKind::Sampled(_)));
+        let sampled = access.binding.as_ref().is_some_and(|binding| binding.kind.sampler().is_some());
         self.demand(!writes || !sampled, id, "is sampled, and declared to be written");
     }
 

@@ -314,12 +314,14 @@ fn access(results: &StageResults<'_>, used: &Use, binding: Option<Binding>) -> A
 }
 
 fn buffer_access(results: &StageResults<'_>, used: &Use, declared: &FramePass) -> BufferAccess {
-    let named = match used.role {
-        Role::Declared => declared.accesses().nth(used.entry as usize).and_then(|named| match named {
+    let entry = used.entry as usize;
+    let named = if used.role.is_declared() {
+        declared.accesses().nth(entry).and_then(|named| match named {
             FrameAccess::Buffer(named) => Some(named),
             _ => None,
-        }),
-        role => declared.buffers.get(used.entry as usize).filter(|_| role.is_buffer()),
+        })
+    } else {
+        declared.buffers.get(entry).filter(|_| used.role.is_buffer())
     };
     BufferAccess {
         buffer: BufferId(results.adapted.resources[used.resource as usize].id),

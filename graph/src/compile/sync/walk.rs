@@ -214,7 +214,7 @@ fn join_layouts(a: Layout, b: Layout) -> Layout {
 fn usage_bits(used: &Use) -> u32 {
     // Buffers have no layout.
     if used.layout != Layout::Undefined {
-        return used.image_usage().bits();
+        return used.usage().bits();
     }
     used.accesses.buffer_usage().bits()
 }
