@@ -196,6 +196,21 @@ typedef struct {
     VkImageLayout layout;
 } FramewrightPassImage;
 
+// The layout of a descriptor set that the program makes and binds itself.
+typedef struct {
+    // Its number, 1 to 3. The draws of a scene have set 1 and set 2.
+    uint32_t set;
+    // Its bindings: types of buffers, texel buffers, images and samplers, for vertex, fragment and compute shaders. Other stages take a
+    // `layout`.
+    const VkDescriptorSetLayoutBinding *bindings;
+    // The flags of each binding; NULL: none has any.
+    const VkDescriptorBindingFlags *flags;
+    // How many bindings there are.
+    size_t binding_count;
+    // The layout that the program made so, which lives as long as the device; NULL: one is made of the bindings. Immutable samplers take one.
+    VkDescriptorSetLayout layout;
+} FramewrightSet;
+
 // What a renderer is made with, and keeps. 0 in a field is its default.
 typedef struct {
     // sizeof(FramewrightRendererOptions).
@@ -208,6 +223,10 @@ typedef struct {
     FramewrightNames settings;
     // Extensions that are applied to the pipeline: files, or paths of shipped ones.
     FramewrightNames extensions;
+    // Descriptor sets that the program makes itself, and binds by `framewright_renderer_bind_set`.
+    const FramewrightSet *sets;
+    // How many there are.
+    size_t set_count;
 } FramewrightRendererOptions;
 
 // Records a custom pass: commands that touch what the pipeline says that the pass touches, and what is the program's own. Returns 0 if it
@@ -364,6 +383,16 @@ FramewrightStatus framewright_pass_image(const FramewrightPass *pass, const char
 
 // Tells a buffer that a pass outside of a rendering scope accesses, by the pipeline's name.
 FramewrightStatus framewright_pass_buffer(const FramewrightPass *pass, const char *name, VkBuffer *buffer);
+
+// Binds a descriptor set of the program's for all passes whose shaders read the set of this number, from the next frame on, with its
+// dynamic offsets: `offset_count` of them, in the order of bindings. NULL in place of `descriptors` lets go of the one before. It must
+// have the layout that the renderer was told, and live until the last frame is done that it was bound in. What shaders read of it must be
+// there, in the state that it says: no Plan knows of it, and the program makes the barriers.
+FramewrightStatus framewright_renderer_bind_set(FramewrightRenderer *renderer,
+                                                uint32_t set,
+                                                VkDescriptorSet descriptors,
+                                                const uint32_t *offsets,
+                                                size_t offset_count);
 
 // Reads the pipeline in the file `pipeline`; where there is none, the shipped one of that name. Until it is told otherwise, the frame
 // has 1280×720 texels, and the scene may hold everything. `options` may be NULL.

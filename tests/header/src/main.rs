@@ -4,7 +4,7 @@ use std::error::Error;
 use std::path::Path;
 
 /// The files in the order in which the header has their contents.
-const FILES: [&str; 12] = [
+const FILES: [&str; 13] = [
     "version",
     "status",
     "last_error",
@@ -13,6 +13,7 @@ const FILES: [&str; 12] = [
     "adopt",
     "scene",
     "passes",
+    "sets",
     "renderer",
     "frames",
     "images",

@@ -162,6 +162,13 @@ fn a_program_in_c_records_custom_passes() {
     }
 }
 
+/// The layer is on: it would print what it finds (DO-5).
+#[test]
+fn a_program_in_c_binds_a_set_of_its_own() {
+    let Some(program) = program("framewright/c/tests/programs/sets.c") else { return };
+    assert_eq!(succeeded(&program.run(&[], &VALIDATION)), "");
+}
+
 #[test]
 fn changes_reach_the_scene_and_are_told_to_the_program() {
     let Some(program) = program("framewright/c/tests/programs/changes.c") else { return };
