@@ -47,6 +47,8 @@ pub struct Pass {
     pub side_effect: bool,
     /// Values for the shader's parameter block, by member name.
     pub params: Vec<(Arc<str>, ParamValue)>,
+    /// Values for the shader's specialization constants, by name.
+    pub constants: Vec<(Arc<str>, ParamValue)>,
 }
 
 impl Pass {
@@ -73,6 +75,7 @@ impl Pass {
             transfers: Vec::new(),
             side_effect: false,
             params: Vec::new(),
+            constants: Vec::new(),
         }
     }
 }

@@ -156,4 +156,10 @@ room! {
     /// A sampler of its own (`sampler`, HLSL's `SamplerState`) takes filter and address from the images that it samples. Say the same
     /// `filter`, `mip_filter` and `address` of all of them.
     SAMPLER_SHARED = 828,
+
+    /// The shader has no such specialization constant, or it has another type than the value.
+    ///
+    /// `constants: {"TILE": 8}` gives values to the constants of a shader: GLSL's `layout(constant_id = 0)`, HLSL's
+    /// `[[vk::constant_id(0)]]`. Truth values and numbers of 32 bits have values. The help names those that there are.
+    SHADER_CONSTANT = 830,
 }

@@ -152,6 +152,7 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
         transfers,
         side_effect,
         params,
+        constants,
     } = new;
     let same = same_name(&old.name, name)
         && old.span == *span
@@ -167,7 +168,8 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
         && same_lists(&old.storage, storage, same_storage)
         && old.buffers == *buffers
         && old.transfers == *transfers
-        && old.needs == *needs;
+        && old.needs == *needs
+        && old.constants == *constants;
     if !same {
         return Structure;
     }

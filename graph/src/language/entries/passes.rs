@@ -71,9 +71,15 @@ impl Context<'_> {
         let alpha_to_coverage = optional(fields.alpha_to_coverage, |leaf| self.truth(leaf));
         let covers = optional(fields.covers, |leaf| self.truth(leaf).map(FieldValue::alone));
         let params = optional(fields.params, |leaf| self.params(leaf));
+        let constants = optional(fields.constants, |leaf| self.constants(leaf));
         let side_effect = optional(fields.side_effect, |leaf| self.truth(leaf).map(FieldValue::alone));
         let (draws, span) = (fields.draw.is_some(), fields.name.span());
-        let bindings = (ReadableValue(sample), ReadableValue(storage), ReadableValue(uniform), ReadableValue(params));
+        let bindings = (
+            ReadableValue(sample),
+            ReadableValue(storage),
+            ReadableValue(uniform),
+            (ReadableValue(params), ReadableValue(constants)),
+        );
         let targets =
             (ReadableValue(color), ReadableValue(depth), ReadableValue(alpha_to_coverage), ReadableValue(covers));
         let parts = (
@@ -84,7 +90,7 @@ impl Context<'_> {
             ReadableValue(side_effect),
         );
         reported(self.reader, parts, move |reader, (work, bindings, (vertex, index), targets, side_effect)| {
-            let (sample, storage, uniform, params) = bindings;
+            let (sample, storage, uniform, (params, constants)) = bindings;
             let (color, depth, alpha_to_coverage, covers) = targets;
             if let (Some(color), Some(depth)) = (&color, &depth) {
                 let (draws, color) = (draws.then_some(span), color.as_deref().unwrap_or(&[]));
@@ -107,6 +113,7 @@ impl Context<'_> {
                 alpha_to_coverage: alpha_to_coverage?.filter(|covers| covers.value).map(|covers| covers.span),
                 covers: covers?.unwrap_or_default(),
                 params: params?.unwrap_or_default(),
+                constants: constants?.unwrap_or_default(),
                 side_effect: side_effect?.unwrap_or_default(),
                 otherwise: Vec::new(),
                 view: ViewIndex::default(),

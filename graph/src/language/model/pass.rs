@@ -43,6 +43,8 @@ pub struct Pass {
     pub covers: bool,
     /// Values for the shader's block `params`.
     pub params: Vec<Param>,
+    /// Values for the shader's specialization constants.
+    pub constants: Vec<Param>,
     /// Whether it has an effect that no image or buffer shows.
     pub side_effect: bool,
     /// Stand-ins: contents of its targets when the pass is off.
@@ -450,6 +452,7 @@ impl Pass {
             alpha_to_coverage: None,
             covers: false,
             params: Vec::new(),
+            constants: Vec::new(),
             side_effect: false,
             otherwise: Vec::new(),
             view: ViewIndex::default(),
