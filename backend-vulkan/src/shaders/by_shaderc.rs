@@ -47,8 +47,13 @@ pub(super) fn compile(
         Some(_) => return Err(CompileFailure::NoCompiler),
     }
     options.set_target_env(TargetEnv::Vulkan, EnvVersion::Vulkan1_3 as u32);
-    // From 1.6 on a workgroup's size is an `OpExecutionModeId`, which the reader of SPIR-V takes for a mistake.
-    options.set_target_spirv(if stage.facts().has_workgroups { SpirvVersion::V1_5 } else { SpirvVersion::V1_6 });
+    options.set_target_spirv(match language {
+        // Its front end marks storage blocks as versions up to 1.3 do.
+        Some(_) => SpirvVersion::V1_3,
+        // From 1.6 on a workgroup's size is an `OpExecutionModeId`, which the reader of SPIR-V takes for a mistake.
+        None if stage.facts().has_workgroups => SpirvVersion::V1_5,
+        None => SpirvVersion::V1_6,
+    });
     options.set_optimization_level(OptimizationLevel::Zero);
     options.set_suppress_warnings();
     if lines {

@@ -108,6 +108,12 @@ impl Compilers {
         let text = |name: &str| known.get(name).map(|(_, text)| text.as_str());
         compiled.map_err(|failure| match failure {
             CompileFailure::NoCompiler => ShaderProblem::Unsupported { what: self.no_compiler(source) },
+            // The compiler of HLSL has no words for this.
+            CompileFailure::Messages(messages) if messages.is_empty() => {
+                let entry = job.entry.as_deref().unwrap_or("main");
+                let text = format!("{}: it has no entry point `{entry}`", source.shown);
+                ShaderProblem::DoesNotCompile { messages: vec![ShaderMessage { text, quote: None, limit: None }] }
+            }
             CompileFailure::Messages(messages) => ShaderProblem::DoesNotCompile { messages: located(messages, text) },
             CompileFailure::OutOfMemory => of_file(source, "ran out of memory", None),
             CompileFailure::Internal(words) => of_file(source, &format!("failed: {words}"), None),

@@ -2,6 +2,7 @@
 
 use super::by_command;
 use super::compilers::Compilers;
+use super::constants::Constants;
 use super::files::ShaderFiles;
 use super::macros::{Macros, is_of_glsl};
 use super::module_file::ModuleFile;
@@ -17,6 +18,8 @@ pub(super) struct FileStage<'s> {
     pub(super) entry: Option<&'s str>,
     pub(super) stage: ShaderStage,
     pub(super) macros: &'s Macros,
+    /// Values of its specialization constants.
+    pub(super) constants: &'s Constants,
 }
 
 impl FileStage<'_> {
@@ -30,9 +33,9 @@ impl FileStage<'_> {
         compilers: &mut Compilers,
         files: &ShaderFiles,
     ) -> Result<Vec<u32>, ShaderProblem> {
-        let FileStage { file, entry, stage, macros } = *self;
+        let FileStage { file, entry, stage, macros, constants } = *self;
         let language = match &source.code {
-            StageCode::Module(module) => return module.cut(file, stage, entry),
+            StageCode::Module(module) => return module.cut(file, stage, entry, constants),
             StageCode::Text(language) => *language,
             StageCode::Glsl => return Err(ShaderProblem::Unsupported { what: format!("{file}: it is GLSL") }),
         };
@@ -53,6 +56,6 @@ impl FileStage<'_> {
             module.spread_registers();
         }
         // Compilers that are told of one entry point may call it `main`.
-        module.cut(file, stage, entry.filter(|_| !module.has_one(stage)))
+        module.cut(file, stage, entry.filter(|_| !module.has_one(stage)), constants)
     }
 }

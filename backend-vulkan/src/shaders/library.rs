@@ -3,6 +3,7 @@
 use super::PrecompiledShaders;
 use super::colors;
 use super::compilers::Compilers;
+use super::constants;
 use super::coverage::{DISCARDS, MASKS_SAMPLES};
 use super::eyes::{self, BothEyes};
 use super::file_stages::FileStage;
@@ -24,8 +25,8 @@ use framewright_graph::base::{FilePath, Root};
 use framewright_graph::device::{Need, NeedKind};
 use framewright_graph::frame::{Draw, EyeForm};
 use framewright_graph::shader::{
-    Binding, DrawInterface, DrawInterfaces, DrawKind, PASS_SET, ProgramSet, ShaderInterface, ShaderInterfaces,
-    ShaderName, ShaderProblem, StageName, UnbindableResource, Variant,
+    Binding, ConstantValue, DrawInterface, DrawInterfaces, DrawKind, PASS_SET, ProgramSet, ShaderInterface,
+    ShaderInterfaces, ShaderName, ShaderProblem, StageName, UnbindableResource, Variant,
 };
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -88,8 +89,8 @@ const VERTEX: ShaderStage = ShaderStage::Vertex;
 const FRAGMENT: ShaderStage = ShaderStage::Fragment;
 const COMPUTE: ShaderStage = ShaderStage::Compute;
 
-/// A stage by its name, its macros, how it draws for both eyes, and what it samples in layers.
-type StageKey = (StageName, ShaderStage, Macros, Option<BothEyes>, Vec<String>);
+/// A stage by its name, its macros, how it draws for both eyes, what it samples in layers, and the values of its constants.
+type StageKey = (StageName, ShaderStage, Macros, Option<BothEyes>, Vec<String>, Vec<(Arc<str>, ConstantValue)>);
 
 /// A stage, `None` if it has no file.
 type StageResult = Result<Option<Arc<CompiledStage>>, ShaderProblem>;
@@ -290,7 +291,8 @@ impl ShaderLibrary {
     fn stage(&mut self, name: &StageName, stage: ShaderStage, variant: &Variant) -> StageResult {
         let Some(source) = self.sources.source(&file_of(name, stage))? else { return Ok(None) };
         let both = both_eyes(variant);
-        let key = (name.clone(), stage, macros(&source.mentioned, variant, stage), both, in_layers(variant, stage));
+        let (macros, constants) = (macros(&source.mentioned, variant, stage), variant.constants.clone());
+        let key = (name.clone(), stage, macros, both, in_layers(variant, stage), constants);
         if let Some(known) = self.stages.get(&key) {
             return known.clone();
         }
@@ -302,12 +304,12 @@ impl ShaderLibrary {
     /// The SPIR-V of a stage, of the file's or compiled.
     fn spirv_of(&mut self, source: &StageSource, key: &StageKey) -> Result<CompilerAnswer, ShaderProblem> {
         let StageSource { found, .. } = source;
-        let (name, stage, macros, both, in_layers) = key;
+        let (name, stage, macros, both, in_layers, constants) = key;
         let stage = *stage;
         let (compilers, files, program_sets) = (&mut self.compilers, &self.sources.files, &self.program_sets);
         let unsupported = |refused: RefusedStage| ShaderProblem::Unsupported { what: refused.placed(files, found) };
         if let StageName::File { file, entry } = name {
-            let wanted = FileStage { file, entry: entry.as_deref(), stage, macros };
+            let wanted = FileStage { file, entry: entry.as_deref(), stage, macros, constants };
             let spirv = wanted.compiled(source, compilers, files)?;
             let counts = both.is_some_and(BothEyes::counts_instances) && stage.facts().places_vertices;
             if counts || both.is_some() && !in_layers.is_empty() {
@@ -338,13 +340,15 @@ impl ShaderLibrary {
         if stage.facts().has_workgroups {
             sized(files, found).map_err(unsupported)?;
         }
-        Ok(answer)
+        let CompilerAnswer { spirv, verdict } = answer;
+        let spirv = constants::with_values(spirv, constants).map_err(|what| unsupported(what.into()))?;
+        Ok(CompilerAnswer { spirv, verdict })
     }
 
     fn compile_stage(&mut self, source: &StageSource, key: &StageKey) -> StageResult {
         let CompilerAnswer { spirv, verdict } = self.spirv_of(source, key)?;
         let StageSource { found, mentioned, code } = source;
-        let (_, stage, macros, both, in_layers) = key;
+        let (_, stage, macros, both, in_layers, _) = key;
         let stage = *stage;
         let files = &self.sources.files;
         let unsupported = |refused: RefusedStage| ShaderProblem::Unsupported { what: refused.placed(files, found) };

@@ -11,6 +11,7 @@ mod colors;
 mod compile;
 mod compiler_words;
 mod compilers;
+mod constants;
 mod coverage;
 mod distances;
 mod extensions;

@@ -3,8 +3,9 @@
 //! What is cut out looks as if the GLSL compiler had written it: its entry point is `main`, it holds nothing that this one doesn't
 //! reach, and all that a pass gives has a name. So nothing behind here knows of such files.
 
+use super::constants::Constants;
 use super::module::id;
-use super::{module_capabilities, module_checks, module_words, place_names, push_constants, registers};
+use super::{constants, module_capabilities, module_checks, module_words, place_names, push_constants, registers};
 use crate::base::ShaderStage;
 use framewright_graph::shader::ShaderProblem;
 use rspirv::binary::Assemble;
@@ -16,6 +17,8 @@ use std::collections::{HashMap, HashSet};
 #[derive(Debug)]
 pub(super) struct ModuleFile {
     module: Module,
+    /// Entry points, by their functions, whose workgroups are sized by constants.
+    sized_by: Vec<(u32, Vec<u32>)>,
 }
 
 /// An entry point: its stage, its function and its name.
@@ -32,7 +35,12 @@ impl ModuleFile {
     /// # Errors
     /// In words: it is no SPIR-V, or breaks a rule that every reader relies on.
     pub(super) fn read(bytes: &[u8]) -> Result<ModuleFile, String> {
-        ModuleFile::of_words(module_words::words(bytes)?)
+        let words = module_words::words(bytes)?;
+        let sized_by = module_words::sized_by_constants(bytes);
+        let mut module = rspirv::dr::load_words(words).map_err(|error| error.to_string())?;
+        module_checks::check(&module)?;
+        without_groups(&mut module);
+        Ok(ModuleFile { module, sized_by })
     }
 
     /// Reads what a compiler wrote.
@@ -42,13 +50,6 @@ impl ModuleFile {
     pub(super) fn compiled(spirv: &[u32]) -> Result<ModuleFile, String> {
         let bytes: Vec<u8> = spirv.iter().flat_map(|word| word.to_le_bytes()).collect();
         ModuleFile::read(&bytes)
-    }
-
-    fn of_words(words: Vec<u32>) -> Result<ModuleFile, String> {
-        let mut module = rspirv::dr::load_words(words).map_err(|error| error.to_string())?;
-        module_checks::check(&module)?;
-        without_groups(&mut module);
-        Ok(ModuleFile { module })
     }
 
     /// Gives each resource of a pass a binding of its own, where HLSL numbers kinds of registers each from 0 on.
@@ -75,11 +76,18 @@ impl ModuleFile {
         self.entry_points().any(|entry| entry.model == stage.facts().model)
     }
 
-    /// The module of one entry point: the one of this name, or else the only one of the stage. `file` is its file in messages.
+    /// The module of one entry point: the one of this name, or else the only one of the stage. `file` is its file in messages. Its
+    /// specialization constants have these values.
     ///
     /// # Errors
     /// [`ShaderProblem::EntryPoint`] if there is none such, or there are several; [`ShaderProblem::BadModule`] if it isn't whole.
-    pub(super) fn cut(&self, file: &str, stage: ShaderStage, named: Option<&str>) -> Result<Vec<u32>, ShaderProblem> {
+    pub(super) fn cut(
+        &self,
+        file: &str,
+        stage: ShaderStage,
+        named: Option<&str>,
+        values: &Constants,
+    ) -> Result<Vec<u32>, ShaderProblem> {
         let facts = stage.facts();
         let of_stage: Vec<EntryPoint<'_>> = self.entry_points().filter(|entry| entry.model == facts.model).collect();
         let mut wanted = of_stage.iter().filter(|entry| named.is_none_or(|named| entry.name == named));
@@ -95,6 +103,8 @@ impl ModuleFile {
         };
         let bad = |what: String| ShaderProblem::BadModule { what: format!("{file}: {what}") };
         let mut module = self.reached(*entry).map_err(bad)?;
+        constants::put(&mut module, values);
+        self.size_by_constants(&mut module, *entry);
         if facts.has_workgroups && !is_sized(&module) {
             return Err(bad(format!("its entry point `{}` doesn't say how large its workgroups are", entry.name)));
         }
@@ -104,6 +114,18 @@ impl ModuleFile {
         push_constants::as_params(&mut module);
         place_names::add(&mut module);
         Ok(module.assemble())
+    }
+
+    /// Puts the constants' values in place of the size of workgroups.
+    fn size_by_constants(&self, module: &mut Module, entry: EntryPoint<'_>) {
+        let Some((_, sizes)) = self.sized_by.iter().find(|(function, _)| *function == entry.function) else { return };
+        let sizes: Option<Vec<u32>> = sizes.iter().map(|size| constants::value_of(module, *size)).collect();
+        let is_size =
+            |it: &&mut Instruction| it.operands.get(1) == Some(&Operand::ExecutionMode(ExecutionMode::LocalSize));
+        if let (Some(sizes), Some(mode)) = (sizes, module.execution_modes.iter_mut().find(is_size)) {
+            mode.operands.truncate(2);
+            mode.operands.extend(sizes.into_iter().map(Operand::LiteralBit32));
+        }
     }
 
     /// The module with all that an entry point reaches.
@@ -118,6 +140,8 @@ impl ModuleFile {
         let (mut reached, mut open) = (HashSet::new(), vec![entry.function]);
         if entry.model == ExecutionModel::GLCompute {
             open.extend(workgroup_sizes(&self.module));
+            let sized = self.sized_by.iter().filter(|(function, _)| *function == entry.function);
+            open.extend(sized.flat_map(|(_, sizes)| sizes));
         }
         while let Some(next) = open.pop() {
             if !reached.insert(next) {

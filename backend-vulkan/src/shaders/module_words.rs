@@ -91,6 +91,20 @@ pub(super) fn words(bytes: &[u8]) -> Result<Vec<u32>, String> {
     Ok([header, &without_notes(&all)].concat())
 }
 
+/// The functions of entry points whose workgroups are sized by constants, each with these constants, of a file whose words are good.
+pub(super) fn sized_by_constants(bytes: &[u8]) -> Vec<(u32, Vec<u32>)> {
+    let mut words: Vec<u32> = bytes.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect();
+    if words.first() == Some(&MAGIC.swap_bytes()) {
+        words.iter_mut().for_each(|word| *word = word.swap_bytes());
+    }
+    let all = split(words.get(HEADER..).unwrap_or_default()).unwrap_or_default();
+    let sized = all.iter().filter_map(|it| match (it[0] & 0xffff, &it[1..]) {
+        (op::EXECUTION_MODE_ID, [entry, mode, sizes @ ..]) if *mode == LOCAL_SIZE[1] => Some((*entry, sizes.to_vec())),
+        _ => None,
+    });
+    sized.collect()
+}
+
 /// The instructions.
 fn split(mut rest: &[u32]) -> Result<Vec<&[u32]>, String> {
     let mut all = Vec::new();

@@ -2,6 +2,7 @@
 
 use super::bindings::{bindings, component_of};
 use super::capabilities::check_capabilities;
+use super::constants;
 use super::extensions::check_extensions;
 use super::eyes::{HANDED_ON, LOCATION};
 use super::module::{IndexedModule, id, number, storage_class};
@@ -105,6 +106,7 @@ pub(super) fn reflect(
         sees_alike: if vertex { matrices(&module, &used) } else { Vec::new() },
         // They are told with their places, which stand in the text too.
         needs: Vec::new(),
+        constants: constants::of(&module),
     };
     let input_attachments = module
         .variables()

@@ -101,6 +101,9 @@ pub(super) fn join(vertex: &CompiledStage, fragment: &CompiledStage) -> Result<S
             joined.needs.push(need.clone());
         }
     }
+    let of_vertices = vertex.reflected.interface.constants.iter();
+    let others: Vec<_> = of_vertices.filter(|constant| !joined.constants.contains(constant)).cloned().collect();
+    joined.constants.extend(others);
     joined.bindings.sort_by_key(|it| (it.set, it.binding));
     // Each stage that samples an image must ask.
     let [mut others, seen] = [&vertex, &fragment].map(|stage| stage.reflected.interface.clone());

@@ -61,6 +61,7 @@ fn a_mistake_is_shown_at_its_line_of_the_file_that_has_it() {
     // What is included lies beside the file, or is shipped.
     let including = format!("#include \"part/light.hlsli\"\n{}", HLSL.replace(" * tint", " * tint * lit()"));
     place.file("post.hlsl", &including);
+    std::fs::create_dir(place.path("part")).expect("made");
     place.file("part/light.hlsli", "float lit() { return 1.0; }\n");
     place.run(&["check", "p.ron"]).exits(0);
     place.file("part/light.hlsli", "float lit() {\n    return brightness; }\n");
@@ -270,4 +271,79 @@ fn slangc_compiles_slang_and_hlsl() {
     place.file("p.ron", pipeline("post.hlsl:PSMain"));
     place.file("post.hlsl", HLSL);
     check().exits(0);
+}
+
+#[test]
+fn a_constant_that_the_shader_has_not_or_of_another_type_is_said_at_its_place() {
+    let place = Place::new();
+    place.file("tile.comp", include_str!("../../../tests/shaders/constants.comp"));
+    let check = |constants: &str| {
+        place.file(
+            "p.ron",
+            format!(
+                "Pipeline(version: 1, buffers: [(name: \"to\", bytes: 256)], passes: [
+    (name: \"tile\", dispatch: \"tile\", groups: Invocations(64), storage: {{\"Numbers\": (buffer: \"to\", access: Write)}},
+        constants: {{{constants}}}),
+], outputs: [(buffer: \"to\", after: Host)])"
+            ),
+        );
+        place.run(&["check", "p.ron"])
+    };
+    check("\"FACTOR\": 2, \"constant 0\": 32").exits(0);
+    check("\"FACTR\": 2")
+        .exits(1)
+        .mentions("error: shader `tile` has no constant named `FACTR` [E0830]\n --> p.ron:3:21")
+        .mentions("did you mean `FACTOR`?");
+    check("\"FACTOR\": 0.5").exits(1).mentions(
+        "error: constant `FACTOR` of shader `tile` has the type `uint` and can't be `0.5` [E0830]\n --> p.ron:3:31",
+    );
+    check("\"FACTOR\": -1").exits(1).mentions("has the type `uint` and can't be `-1`");
+    check("\"DOUBLED\": (1, 2)").exits(1).mentions("has the type `bool` and can't be `(1, 2)`");
+    check("\"FACTOR\": 2, \"FACTOR\": 3").exits(1).mentions("names `FACTOR` twice");
+    // Limits see the size that the file gives.
+    check("\"constant 0\": 100000").exits(1).mentions("maxComputeWorkGroup");
+    place.file(
+        "p.ron",
+        pipeline("copy").replace("params: {\"factor\": 1, \"tint\": (1, 1, 1)}", "constants: {\"A\": 1}"),
+    );
+    place
+        .run(&["check", "p.ron"])
+        .exits(1)
+        .mentions("has no constant named `A`")
+        .mentions("it has no specialization constants");
+}
+
+#[test]
+fn a_vertex_stage_in_hlsl_is_drawn_turned_by_the_include() {
+    let place = Place::new();
+    place.file(
+        "p.ron",
+        "Pipeline(version: 1, images: [(name: \"screen\", format: Output, size: Output)], passes: [
+    (name: \"triangle\", draw: Vertices(3), shader: (vertex: \"post.hlsl:VSMain\", fragment: \"post.hlsl:PSMain\"),
+        color: [(image: \"screen\", clear: (0, 0, 0, 1))]),
+], outputs: [\"screen\"])",
+    );
+    let hlsl = |position: &str| {
+        format!(
+            "#include \"include/rotation.hlsl\"\n#include \"include/stereo.hlsl\"\n
+float4 VSMain(uint vertex : SV_VertexID) : SV_Position {{
+    float2 uv = float2((vertex << 1) & 2, vertex & 2);
+    return {position}(float4(screen_uv(uv) * 2.0 - 1.0, 0.0, 1.0));
+}}
+float4 PSMain() : SV_Target0 {{ return float4(eye_index, 0.0, 0.0, 1.0); }}\n"
+        )
+    };
+    let compilers = ["", "hlsl=dxc", "hlsl=glslangValidator", "hlsl=slangc -O0"];
+    let there = |compiler: &&&str| {
+        let command = compiler.split(['=', ' ']).nth(1);
+        command.is_none_or(is_there)
+    };
+    for compiler in compilers.iter().filter(there) {
+        let named: &[&str] = if compiler.is_empty() { &[] } else { &["--shader-compiler", compiler] };
+        let check = || place.run(&[&["check", "p.ron", "--rotate", "90"][..], named].concat());
+        place.file("post.hlsl", hlsl("rotate_clip"));
+        check().exits(0);
+        place.file("post.hlsl", hlsl(""));
+        check().exits(1).mentions("`triangle`");
+    }
 }

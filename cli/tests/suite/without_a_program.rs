@@ -74,9 +74,9 @@ fn declared_uses_are_checked_where_they_stand() {
     let tree = place.run(&["inspect", "p.ron", "--verbose"]).exits(0).out;
     assert!(tree.contains("before SHADER_STORAGE_WRITE in COMPUTE_SHADER"), "{tree}");
     for (wrong, said) in [
-        (right.replace("COMPUTE_SHADER", "COPY"), "SHADER_STORAGE_WRITE doesn't happen in COPY [E0720]"),
-        (right.replace("GENERAL", "TRANSFER_DST_OPTIMAL"), "doesn't happen in the layout TRANSFER_DST_OPTIMAL [E0720]"),
-        (right.replace("mask", "screen"), "the pass names no such part of `screen` [E0720]"),
+        (right.replace("COMPUTE_SHADER", "COPY"), "SHADER_STORAGE_WRITE doesn't happen in COPY [E0721]"),
+        (right.replace("GENERAL", "TRANSFER_DST_OPTIMAL"), "doesn't happen in the layout TRANSFER_DST_OPTIMAL [E0721]"),
+        (right.replace("mask", "screen"), "the pass names no such part of `screen` [E0721]"),
     ] {
         place.file("p.ron", declared(&wrong));
         let err = place.run(&["check", "p.ron"]).exits(1).err;

@@ -165,3 +165,39 @@ fn a_module_of_the_program_is_drawn_until_a_file_takes_its_place_and_that_is_fol
     assert!(renderer.reload().expect_err("cut off").to_string().contains("cut off"));
     render::silent(device).expect("silent");
 }
+
+/// HLSL and what it includes, and a compiler that the program names (DO-2).
+#[test]
+fn hlsl_and_what_it_includes_are_followed_whatever_compiles_them() {
+    let Some(device) = render::device() else { return };
+    let place = Place::new();
+    let text = r#"Pipeline(version: 1,
+        images: [(name: "screen", format: Output, size: Output)],
+        passes: [(name: "post", draw: FullScreen("post.hlsl:PSMain"), color: ["screen"])],
+        outputs: ["screen"])"#;
+    let file = place.file("mine.ron", text);
+    place.file("post.hlsl", "#include \"light.hlsli\"\nfloat4 PSMain() : SV_Target0 { return light(); }\n");
+    let light =
+        |green: &str| place.file("light.hlsli", format!("float4 light() {{ return float4(0, {green}, 0, 1); }}\n"));
+    light("0.0");
+    let mut options = RendererOptions::default();
+    let mut renderer = renderer_with(device, &file, options.clone());
+    let green = |picture: &[u8]| picture.as_chunks::<4>().0[0][1];
+    assert_eq!(green(&draw(&mut renderer, 1).1), 0);
+    for (shown, written) in [(255, "1.0"), (0, "0.0")] {
+        light(written);
+        assert!(renderer.files_changed());
+        renderer.reload().expect("right");
+        assert_eq!(green(&draw(&mut renderer, 1).1), shown);
+    }
+    light("nothing");
+    let error = renderer.reload().expect_err("wrong").to_string();
+    assert!(error.contains("light.hlsli:1"), "{error}");
+    // The compiler that the program names is the one that is asked.
+    options.shader_compilers.set_named("hlsl=no-such-compiler {input} {output}").expect("a command");
+    light("1.0");
+    let mut other = renderer_with(device, &file, options);
+    let told = other.prepare().map(|_| ()).expect_err("it isn't there").to_string();
+    assert!(told.contains("`no-such-compiler` isn't there"), "{told}");
+    render::silent(device).expect("silent");
+}

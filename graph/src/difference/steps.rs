@@ -130,6 +130,11 @@ impl<'p> EntryStep<'p> {
         if !params.is_empty() {
             fields.push(("parameters", params.join(", ")));
         }
+        let constants = pass.constants.iter().map(|it| format!("{} = {}", ShownText(&it.name), it.value));
+        let constants: Vec<String> = constants.collect();
+        if !constants.is_empty() {
+            fields.push(("constants", constants.join(", ")));
+        }
         if !pass.accesses.is_empty() {
             fields.push((
                 "accesses",

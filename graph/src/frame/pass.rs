@@ -57,6 +57,8 @@ pub struct Pass {
     pub side_effect: bool,
     /// Values for the shader's parameter block, by member name.
     pub params: Vec<(Arc<str>, ParamValue)>,
+    /// Values for the shader's specialization constants, by name.
+    pub constants: Vec<(Arc<str>, ParamValue)>,
 }
 
 impl Pass {
@@ -87,6 +89,7 @@ impl Pass {
             any_queue: false,
             side_effect: false,
             params: Vec::new(),
+            constants: Vec::new(),
         }
     }
 }

@@ -194,7 +194,9 @@ impl Plan {
                     return Err(PlanError::NotFinite { place: format!("a clear value in steps[{index}]") });
                 }
             }
-            for (pass, param) in passes.flat_map(|pass| pass.params.iter().map(move |param| (pass, param))) {
+            for (pass, param) in
+                passes.flat_map(|pass| pass.params.iter().chain(&pass.constants).map(move |param| (pass, param)))
+            {
                 if !param.value.is_finite() {
                     let place =
                         format!("`{}` of pass `{}` in steps[{index}]", ShownText(&param.name), ShownText(&pass.name));

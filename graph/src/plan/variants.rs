@@ -44,6 +44,7 @@ impl Plan {
                 bindings().map(|binding| &binding.name).chain(pass.buffers.iter().filter_map(|it| it.binding.as_ref())),
                 pass.params.iter().map(|param| &param.name),
             ),
+            constants: Variant::constants(pass.constants.iter().map(|it| (&it.name, &it.value))),
         }
     }
 

@@ -165,6 +165,9 @@ pub struct Pass {
     pub stencil: Option<StencilState>,
     /// Values for the shader's parameter block.
     pub params: Vec<Param>,
+    /// Values for the shader's specialization constants.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub constants: Vec<Param>,
     /// Every access to an image that it makes, attachments included, with the shader's name for a bound image; load, store
     /// and resolve operations are the scope's.
     pub accesses: Vec<Access>,

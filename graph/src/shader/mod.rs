@@ -1,5 +1,6 @@
 //! The interface of a shader, as data: a backend reads it off SPIR-V; `check` needs it, and no device.
 
+mod constant;
 mod draw_interface;
 mod draw_interfaces;
 mod draw_kind;
@@ -17,12 +18,13 @@ mod vertex_layout;
 
 use crate::base::{FilePath, OutsideChoice, Quote};
 use crate::device::Need;
-use crate::frame::{Draw, Eye, EyeForm};
+use crate::frame::{Draw, Eye, EyeForm, ParamValue};
 use crate::vulkan::{Component, Format, ImageShape, Stages};
 use std::collections::HashSet;
 use std::fmt;
 use std::sync::Arc;
 
+pub use constant::{ConstantValue, ShaderConstant};
 pub use draw_interface::{Attribute, DrawFault, DrawInterface, DrawPart, SuppliedKind, SuppliedResource};
 pub use draw_interfaces::DrawInterfaces;
 pub use draw_kind::DrawKind;
@@ -31,7 +33,7 @@ pub use interface_file::LARGEST_INTERFACE;
 pub use needs::resource_needs;
 pub use param_type::{ParamMisfit, ParamScalar, ParamType};
 pub use place_names::{
-    GivenNames, PASS_SET, binding_name, binding_of, is_place, location_name, offset_name, offset_of,
+    GivenNames, PASS_SET, binding_name, binding_of, constant_name, is_place, location_name, offset_name, offset_of,
 };
 pub use program_set::{
     BindingFlags, DescriptorType, ProgramBinding, ProgramResource, ProgramSet, SetFault, bindings_of_read_sets,
@@ -89,6 +91,8 @@ pub struct ShaderInterface {
     pub sees_alike: Vec<String>,
     /// What it asks of a device beyond what every device has, but for the number of its resources ([`resource_needs`]).
     pub needs: Vec<Need>,
+    /// Its specialization constants, but for those of the library's own.
+    pub constants: Vec<ShaderConstant>,
 }
 
 /// A pass samples at most this many images of which only a part is in use: the places of the parts take all the bytes of
@@ -525,6 +529,8 @@ pub struct Variant {
     pub alpha_to_coverage: bool,
     /// Of SPIR-V, the names by which the pass gives it things; none of GLSL.
     pub given: GivenNames,
+    /// Values of specialization constants, by the pass's names for them.
+    pub constants: Vec<(Arc<str>, ConstantValue)>,
 }
 
 impl Variant {
@@ -538,6 +544,13 @@ impl Variant {
             return GivenNames::default();
         }
         GivenNames { bindings: bindings.cloned().collect(), params: params.cloned().collect() }
+    }
+
+    /// The values of specialization constants that a pass gives.
+    pub fn constants<'v>(
+        given: impl Iterator<Item = (&'v Arc<str>, &'v ParamValue)>,
+    ) -> Vec<(Arc<str>, ConstantValue)> {
+        given.filter_map(|(name, value)| Some((name.clone(), ConstantValue::of(value)?))).collect()
     }
 
     /// Puts the name of each array in place of those of its elements, once: a shader is compiled for an array as a whole.

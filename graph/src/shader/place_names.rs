@@ -51,6 +51,12 @@ pub fn is_place(name: &str) -> bool {
     binding_of(name).is_some() || offset_of(name).is_some()
 }
 
+/// The name of a specialization constant by its number.
+#[must_use]
+pub fn constant_name(number: u32) -> String {
+    format!("constant {number}")
+}
+
 const BINDING: &str = "binding ";
 const OFFSET: &str = "offset ";
 

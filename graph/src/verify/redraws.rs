@@ -35,8 +35,16 @@ fn wrong(
     (scope, pass): (&RenderScope, &Pass),
     (of, original): (&RenderScope, &Pass),
 ) -> Option<&'static str> {
-    let same = (pass.draw, &pass.shader, pass.view, pass.discards, &pass.params, pass.raster)
-        == (original.draw, &original.shader, original.view, original.discards, &original.params, original.raster);
+    let same = (pass.draw, &pass.shader, pass.view, pass.discards, &pass.params, pass.raster, &pass.constants)
+        == (
+            original.draw,
+            &original.shader,
+            original.view,
+            original.discards,
+            &original.params,
+            original.raster,
+            &original.constants,
+        );
     let tests = pass.depth == original.depth && pass.stencil == original.stencil && pass.stencil.is_none();
     let (Some(depth), Some(drawn)) = (scope.depth(), of.depth()) else { return Some("draws no depth again") };
     let [copy, image] = [depth, drawn].map(|attachment| plan.image(attachment.image));

@@ -8,7 +8,10 @@ RWStructuredBuffer<uint> counts : register(u0);
 
 struct Triangle { float4 position : SV_Position; [[vk::location(0)]] float2 uv : TEXCOORD0; };
 
-float4 PSMain(Triangle it) : SV_Target0 { return float4(tinted(source.Sample(linear_clamp, it.uv).rgb, it.uv, constants), 1.0); }
+float4 PSMain(Triangle it) : SV_Target0 {
+    float3 color = source.Sample(linear_clamp, it.uv).rgb;
+    return float4(tinted(color, it.uv, constants.tint, constants.strength, constants.corners), 1.0);
+}
 
 Triangle VSMain(uint vertex : SV_VertexID) {
     Triangle it;

@@ -162,4 +162,10 @@ room! {
     /// The program tells the layout of sets that it binds itself: with `DrawInterfaces::with_set`, or in `sets` of an interface file
     /// (`--interface`). A shader declares what is there: at its binding, of its type, with as many elements or fewer, in its stages.
     PROGRAM_SET = 829,
+
+    /// The shader has no such specialization constant, or it has another type than the value.
+    ///
+    /// `constants: {"TILE": 8}` gives values to the constants of a shader: GLSL's `layout(constant_id = 0)`, HLSL's
+    /// `[[vk::constant_id(0)]]`. Truth values and numbers of 32 bits have values. The help names those that there are.
+    SHADER_CONSTANT = 830,
 }

@@ -144,7 +144,13 @@ pub(super) fn pass(results: &StageResults<'_>, number: u32) -> Pass {
         let params = declared.params.iter();
         planned.params = params.map(|(name, value)| Param { name: name.clone(), value: value.clone() }).collect();
     }
+    planned.constants = constants(declared);
     planned
+}
+
+/// The values of the shader's specialization constants.
+fn constants(declared: &FramePass) -> Vec<Param> {
+    declared.constants.iter().map(|(name, value)| Param { name: name.clone(), value: value.clone() }).collect()
 }
 
 /// The view that a pass is for, if the frame has any.
@@ -176,6 +182,7 @@ fn depth_only(results: &StageResults<'_>, number: u32, declared: &FramePass, nam
             .iter()
             .map(|(name, value)| Param { name: name.clone(), value: value.clone() })
             .collect(),
+        constants: constants(declared),
         accesses: uses.iter().map(|used| access(results, used, None)).collect(),
         merged: results.scoped.merged(results.frame, results.adapted, number),
         ..planned
@@ -265,6 +272,7 @@ fn bare(name: Arc<str>, cause: Cause, draw: Option<Draw>, groups: Option<Groups>
         depth: None,
         stencil: None,
         params: Vec::new(),
+        constants: Vec::new(),
         accesses: Vec::new(),
         buffers: Vec::new(),
         local_barrier: false,

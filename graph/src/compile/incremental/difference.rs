@@ -156,6 +156,7 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
         any_queue,
         side_effect,
         params,
+        constants,
     } = new;
     let same = same_name(&old.name, name)
         && old.span == *span
@@ -175,7 +176,8 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
         && old.transfers == *transfers
         && old.uses == *uses
         && old.any_queue == *any_queue
-        && old.needs == *needs;
+        && old.needs == *needs
+        && old.constants == *constants;
     if !same {
         return Structure;
     }

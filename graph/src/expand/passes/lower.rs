@@ -5,7 +5,7 @@ use super::{raster, targets, transfers, work};
 use crate::base::{Diagnostic, Span};
 use crate::expand::resources::{Resources, fills, parts};
 use crate::expand::shader::{
-    self, CheckedShaders, coverage, local, params, rotation, sampled_images, samplers, stereo, storage,
+    self, CheckedShaders, constants, coverage, local, params, rotation, sampled_images, samplers, stereo, storage,
     supplied_resources, variant,
 };
 use crate::frame::{BufferRole, ColorTarget, DeclaredUse, DepthTarget, Pass, Resource, TransferUse, Work};
@@ -49,6 +49,7 @@ pub(in crate::expand) fn lower(
         let whole = whole.and_then(|whole| shaders.interface(pass, &whole, errors));
         sampled_images::check_left_out(pass, whole.as_ref(), errors);
         lowered.params = params::give(pass, interface, whole.as_ref(), errors);
+        constants::check(pass, interface, errors);
         targets::fed(resources, pass, interface, errors);
         shaders.remarks.extend(targets::set(pass, interface, errors));
         targets::untaken(pass, interface, &mut shaders.remarks);
@@ -93,6 +94,7 @@ pub(in crate::expand) fn draft(
         any_queue: pass.any_queue,
         side_effect: pass.side_effect,
         params: Vec::new(),
+        constants: constants::as_written(pass),
     };
     for sample in &pass.sample {
         let range = parts::range(resources, &sample.part, errors);

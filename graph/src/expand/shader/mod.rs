@@ -1,13 +1,14 @@
 //! What a pass gives meets what its shader declares.
 //!
 //! ```text
-//! variant ─► interfaces ─► sampled_images (arrays, compared_depth), samplers ─► local ─► storage ─► supplied_resources ─► params
+//! variant ─► interfaces ─► sampled_images (arrays, compared_depth), samplers ─► local ─► storage ─► supplied_resources ─► params, constants
 //! ```
 //! `variant` says how the shader is compiled, `interfaces` finds it. The files behind them check one kind of
 //! declaration each. `coverage`, `rotation` and `stereo` find out what else the frame must know of a shader.
 
 mod arrays;
 mod compared_depth;
+pub(super) mod constants;
 pub(super) mod coverage;
 mod interfaces;
 pub(super) mod local;

@@ -73,7 +73,7 @@ fn block(interface: &ShaderInterface) -> Option<&Block> {
 }
 
 /// How a parameter's value is shown: "`3` (setting `steps`)".
-fn shown(param: &language::Param) -> String {
+pub(super) fn shown(param: &language::Param) -> String {
     let value = number(&param.value.value);
     match &param.written {
         Some(written) => format!("`{value}` ({written})"),

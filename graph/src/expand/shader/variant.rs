@@ -40,6 +40,7 @@ pub(in crate::expand) fn of(resources: &Resources<'_>, pass: &language::Pass) ->
         parts,
         alpha_to_coverage: covers_samples(resources, pass),
         given,
+        constants: Variant::constants(pass.constants.iter().map(|it| (&it.name.text, &it.value.value))),
         ..Variant::default()
     }
 }

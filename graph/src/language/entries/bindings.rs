@@ -119,6 +119,9 @@ pub(crate) const UNIFORM: Form = Form::Map("shader's name", &parts::BUFFER);
 /// Parameters, by the shader's names.
 pub(crate) const PARAMS: Form = Form::Map("shader's name", &values::PARAM);
 
+/// Specialization constants, by the shader's names.
+pub(crate) const CONSTANTS: Form = Form::Map("shader's name", &values::PARAM);
+
 fields! {
     /// A storage image or buffer: a shader reads and writes it, under the shader's own name for it. An array of images is a list of them.
     /// ```ron
@@ -275,7 +278,16 @@ impl Context<'_> {
 
     /// Values by the names of the shader's parameters.
     pub(crate) fn params(&mut self, leaf: Leaf<'_>) -> Option<Vec<FieldValue<Param>>> {
-        self.entries(leaf, "`params`", "a parameter", |context, name, leaf| {
+        self.values(leaf, "`params`", "a parameter")
+    }
+
+    /// Values by the names of the shader's specialization constants.
+    pub(crate) fn constants(&mut self, leaf: Leaf<'_>) -> Option<Vec<FieldValue<Param>>> {
+        self.values(leaf, "`constants`", "a constant")
+    }
+
+    fn values(&mut self, leaf: Leaf<'_>, map: &str, what: &str) -> Option<Vec<FieldValue<Param>>> {
+        self.entries(leaf, map, what, |context, name, leaf| {
             let (value, name) = (context.param(leaf)?, name?);
             Some(value.map(move |value| Param {
                 name: name.clone(),

@@ -22,7 +22,7 @@ fields! {
         pub(crate) repeat: Option<Leaf<'src>> => REPEAT,
         /// It draws.
         pub(crate) draw: Option<Leaf<'src>> => draw::DRAW,
-        /// It runs a compute shader, `NAME.comp`, or SPIR-V.
+        /// It runs a compute shader, `NAME.comp`, or one in a file of another language.
         pub(crate) dispatch: Option<Leaf<'src>> => shader::STAGE,
         /// It copies bits as they are: texels to texels, bytes to bytes, or rows of texels without gaps to or from a buffer.
         pub(crate) copy: Option<Leaf<'src>> => transfer::COPY,
@@ -68,6 +68,8 @@ fields! {
         pub(crate) queue: Option<Leaf<'src>> => declared_uses::QUEUE,
         /// Values for the members of the shader's block `params`, by name: vectors and columns of matrices in `(…, …)`.
         pub(crate) params: Option<Leaf<'src>> => bindings::PARAMS,
+        /// Values for the shader's specialization constants, by name, or by number where they have none: `"constant 0"`.
+        pub(crate) constants: Option<Leaf<'src>> => bindings::CONSTANTS,
         /// `true`: it is kept although nothing in the frame needs it.
         pub(crate) side_effect: Option<Leaf<'src>> => Form::Truth,
         /// A condition: if it is false, the pass is off, and expressions in it need no values.

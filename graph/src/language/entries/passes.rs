@@ -75,9 +75,15 @@ impl Context<'_> {
         let uses = optional(fields.uses, |leaf| self.declared_uses(leaf));
         let queue = values::optional_choice(self.reader, fields.queue, "a queue", &QUEUES);
         let params = optional(fields.params, |leaf| self.params(leaf));
+        let constants = optional(fields.constants, |leaf| self.constants(leaf));
         let side_effect = optional(fields.side_effect, |leaf| self.truth(leaf).map(FieldValue::alone));
         let (draws, span) = (fields.draw.is_some(), fields.name.span());
-        let bindings = (ReadableValue(sample), ReadableValue(storage), ReadableValue(uniform), ReadableValue(params));
+        let bindings = (
+            ReadableValue(sample),
+            ReadableValue(storage),
+            ReadableValue(uniform),
+            (ReadableValue(params), ReadableValue(constants)),
+        );
         let targets = (
             ReadableValue(color),
             ReadableValue(depth),
@@ -93,7 +99,7 @@ impl Context<'_> {
             (ReadableValue(side_effect), ReadableValue(uses)),
         );
         reported(self.reader, parts, move |reader, (work, bindings, (vertex, index), targets, (side_effect, uses))| {
-            let (sample, storage, uniform, params) = bindings;
+            let (sample, storage, uniform, (params, constants)) = bindings;
             let (color, depth, raster, alpha_to_coverage, covers) = targets;
             if let (Some(color), Some(depth)) = (&color, &depth) {
                 let (draws, color) = (draws.then_some(span), color.as_deref().unwrap_or(&[]));
@@ -120,6 +126,7 @@ impl Context<'_> {
                 uses: uses?.unwrap_or_default(),
                 any_queue,
                 params: params?.unwrap_or_default(),
+                constants: constants?.unwrap_or_default(),
                 side_effect: side_effect?.unwrap_or_default(),
                 otherwise: Vec::new(),
                 view: ViewIndex::default(),

@@ -9,13 +9,14 @@ use crate::ron::{Reader, Shape};
 use std::fmt::Display;
 
 /// Fields of a pass that have a meaning beside some kinds of work alone.
-pub(crate) const GOES_WITH: [(&str, &[&str]); 17] = [
+pub(crate) const GOES_WITH: [(&str, &[&str]); 18] = [
     ("shader", &["draw"]),
     ("groups", &["dispatch"]),
     ("sample", &["draw", "dispatch", "custom"]),
     ("storage", &["draw", "dispatch", "custom"]),
     ("uniform", &["draw", "dispatch", "custom"]),
     ("params", &["draw", "dispatch", "custom"]),
+    ("constants", &["draw", "dispatch"]),
     ("vertex", &["draw"]),
     ("index", &["draw"]),
     ("color", &["draw", "custom"]),
@@ -97,6 +98,7 @@ fn fits(reader: &mut Reader, fields: &PassFields<'_>, what: impl Display, word: 
         fields.storage,
         fields.uniform,
         fields.params,
+        fields.constants,
         fields.vertex,
         fields.index,
         fields.color,

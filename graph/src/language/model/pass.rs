@@ -49,6 +49,8 @@ pub struct Pass {
     pub any_queue: bool,
     /// Values for the shader's block `params`.
     pub params: Vec<Param>,
+    /// Values for the shader's specialization constants.
+    pub constants: Vec<Param>,
     /// Whether it has an effect that no image or buffer shows.
     pub side_effect: bool,
     /// Stand-ins: contents of its targets when the pass is off.
@@ -472,6 +474,7 @@ impl Pass {
             uses: Vec::new(),
             any_queue: false,
             params: Vec::new(),
+            constants: Vec::new(),
             side_effect: false,
             otherwise: Vec::new(),
             view: ViewIndex::default(),

@@ -261,7 +261,7 @@ impl<'p> Text<'p> {
         let mut parts = self.about_pass(&pass.name);
         parts.extend(pass.accesses.iter().filter_map(|access| self.binding(access)));
         parts.extend(pass.buffers.iter().map(|access| self.buffer(access)));
-        for param in &pass.params {
+        for param in pass.params.iter().chain(&pass.constants) {
             parts.push(Outline::detail(format!("{} = {}", ShownText(&param.name), param.value)));
         }
         if let Some(merged) = &pass.merged {

@@ -5,7 +5,7 @@ use framewright_graph::compile::Options;
 use framewright_graph::shader::FileLanguage;
 use framewright_passes::draw::{SceneDrawSource, interfaces};
 use framewright_passes::shipped::SHADERS;
-use framewright_tests::render::{Setup, Ways, device, in_repository, plan_for, silent};
+use framewright_tests::render::{Setup, Ways, device, draw, in_repository, plan_for, silent};
 use framewright_tests::shapes::empty_scene;
 use framewright_vulkan::{Device, Executor, ExecutorOptions, ShaderCompilers, ShaderLibrary};
 use std::error::Error;
@@ -63,5 +63,27 @@ fn other_compilers_of_hlsl_draw_the_same() -> Result<(), Box<dyn Error>> {
         compilers.set(FileLanguage::Hlsl, command)?;
         is_right(&drawn(device, compilers)?, command);
     }
+    Ok(())
+}
+
+#[test]
+fn constants_have_the_values_that_the_file_gives() -> Result<(), Box<dyn Error>> {
+    let Some(device) = device() else { return Ok(()) };
+    let scene = empty_scene();
+    for (factor, number) in [("3", 3), ("4", 4)] {
+        let set = [("factor", factor)];
+        let setup = Setup { pipeline: "tests/pipelines/constants.ron", set: &set, scene: &scene, extent: [8, 8] };
+        let (_, executor) = draw(device, &setup, &Options::default(), 1)?;
+        for buffer in ["glsl", "hlsl"] {
+            let bytes = executor.read_buffer(buffer)?;
+            let numbers: Vec<u32> = bytes.as_chunks().0.iter().map(|word| u32::from_ne_bytes(*word)).collect();
+            assert_eq!(numbers, [16 * number * 2 + 4 + 1; 64], "{buffer}");
+        }
+        // The size of workgroups is the constants': one workgroup fills all.
+        let bytes = executor.read_buffer("sizes")?;
+        let sizes: Vec<u32> = bytes.as_chunks().0.iter().map(|word| u32::from_ne_bytes(*word)).collect();
+        assert_eq!(sizes, [64 * 100 + 1; 64]);
+    }
+    silent(device)?;
     Ok(())
 }
