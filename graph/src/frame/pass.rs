@@ -1,7 +1,8 @@
 //! Passes of a frame, and their work.
 
 use super::{
-    BufferUse, ColorTarget, DeclaredUse, DepthTarget, ParamValue, RasterState, SampledImage, Storage, TransferUse, ViewIndex, Work,
+    BufferUse, ColorTarget, DeclaredUse, DepthTarget, ParamValue, RasterState, SampledImage, Storage, TransferUse,
+    ViewIndex, Work,
 };
 use crate::base::Span;
 use crate::device::Need;

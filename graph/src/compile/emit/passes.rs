@@ -4,8 +4,8 @@ use super::stage_results::{StageResults, cause, frame_work};
 use crate::compile::adapt::has_samples;
 use crate::compile::model::{Kind, Op, OpKind, ResolveShader, Role, Use};
 use crate::frame::{
-    Access as FrameAccess, Blend, DepthTarget, Draw, Groups, ParamValue, Pass as FramePass, RasterState, SampledImage, ViewIndex,
-    Work as FrameWork,
+    Access as FrameAccess, Blend, DepthTarget, Draw, Groups, ParamValue, Pass as FramePass, RasterState, SampledImage,
+    ViewIndex, Work as FrameWork,
 };
 use crate::plan::{
     Access, Binding, BindingKind, BufferAccess, BufferId, Cause, DepthState, Fill, ImageId, Param, Pass, Side,
