@@ -107,14 +107,15 @@ impl Dds {
             DdsTexels::Letters(letters) => (4, letters, [0; 5]),
             DdsTexels::Masks(masks) => (0x40 | u32::from(masks[4] != 0), [0; 4], masks),
         };
-        let mut words = vec![124, 0x0002_1007, height, width, 0, depth, self.mips];
+        let deep = u32::from(depth > 1);
+        let mut words = vec![124, 0x0002_1007 | deep << 23, height, width, 0, depth, self.mips];
         words.extend([0; 11]);
         words.extend([32, flags, u32::from_le_bytes(letters)]);
         words.extend(masks);
-        let caps2 = if self.cube { 0xFE00 } else { u32::from(depth > 1) << 21 };
+        let caps2 = if self.cube { 0xFE00 } else { deep << 21 };
         words.extend([0x1000, caps2, 0, 0, 0]);
         if let DdsTexels::Dxgi(number) = self.texels {
-            words.extend([number, 3 + u32::from(depth > 1), u32::from(self.cube) << 2, self.elements, 0]);
+            words.extend([number, 3 + deep, u32::from(self.cube) << 2, self.elements, 0]);
         }
         let mut file = b"DDS ".to_vec();
         file.extend(words.iter().flat_map(|word| word.to_le_bytes()));

@@ -1,6 +1,7 @@
 //! Texture files, whose levels and layers are stored as an image's: what they hold, and where it lies.
 
-use super::{MOST_BYTES, MOST_SIDE, MOST_TEXELS, damaged, dds, decode, ktx2};
+use super::decode;
+use super::limits::{MOST_BYTES, MOST_SIDE, MOST_TEXELS, damaged};
 use flate2::read::ZlibDecoder;
 use framewright_graph::frame::{ColorSpace, TextureFile, TextureInfo, TextureProblem, WantedTexels};
 use framewright_graph::vulkan::{Format, Numeric};
@@ -98,21 +99,8 @@ fn one(numeric: Numeric, bytes: usize) -> [u8; 4] {
 }
 
 impl Container {
-    /// The texture file that begins with `head` and has so many bytes; `None`: it is none.
-    pub(super) fn open(head: &[u8], bytes: u64, file: &TextureFile) -> Result<Option<Container>, TextureProblem> {
-        let container = if head.starts_with(&::ktx2::MAGIC) {
-            ktx2::open(head)?
-        } else if head.starts_with(b"DDS ") {
-            dds::open(head, file.color_space)?
-        } else {
-            return Ok(None);
-        };
-        container.check(bytes)?;
-        Ok(Some(container))
-    }
-
     /// Whether such an image can be, and all of it lies in a file of so many bytes.
-    fn check(&self, bytes: u64) -> Result<(), TextureProblem> {
+    pub(super) fn check(&self, bytes: u64) -> Result<(), TextureProblem> {
         let [width, height, depth] = self.extent;
         let texels = self.extent.iter().fold(u64::from(self.layers), |all, side| all.saturating_mul((*side).into()));
         if texels == 0 || self.mips == 0 {

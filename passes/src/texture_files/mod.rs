@@ -4,9 +4,14 @@ mod container;
 mod dds;
 mod decode;
 mod ktx2;
+mod limits;
+mod pack;
+
+pub use limits::{MOST_BYTES, MOST_SIDE, MOST_TEXELS};
 
 use self::container::{Container, HEAD};
-use crate::decoder_words;
+use self::limits::{MOST_DECODED, damaged};
+use self::pack::pack;
 use crate::open_exr::OpenExr;
 use crate::srgb;
 use framewright_graph::base::{NoFile, Root, is_of_machine};
@@ -14,21 +19,11 @@ use framewright_graph::frame::{
     ColorSpace, TextureFile, TextureInfo, TextureProblem, Textures, WantedTexels, format_problem, picture_extent,
 };
 use framewright_graph::vulkan::{Format, Numeric};
-use half::f16;
 use image::codecs::hdr::HdrDecoder;
 use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader, Read, Seek};
 use std::path::PathBuf;
-
-/// Texels along a side of a picture. A strip for a three-dimensional image is longer than textures of other kinds.
-pub const MOST_SIDE: u32 = 16384;
-/// Texels of a picture: 64 Mi.
-pub const MOST_TEXELS: u64 = 64 << 20;
-/// Bytes of a picture's file: 1 GiB.
-pub const MOST_BYTES: u64 = 1 << 30;
-/// Bytes that a decoder may take beside the file's own: what the largest picture takes with four 32-bit components.
-const MOST_DECODED: u64 = MOST_TEXELS * 16 + (64 << 20);
 
 /// Textures from files.
 ///
@@ -94,7 +89,15 @@ impl TextureFiles {
         let bytes = opened.metadata().map_err(unreadable)?.len();
         let mut head = Vec::new();
         opened.take(HEAD).read_to_end(&mut head).map_err(unreadable)?;
-        Container::open(&head, bytes, file)
+        let container = if head.starts_with(&::ktx2::MAGIC) {
+            ktx2::open(&head)?
+        } else if head.starts_with(b"DDS ") {
+            dds::open(&head, file.color_space)?
+        } else {
+            return Ok(None);
+        };
+        container.check(bytes)?;
+        Ok(Some(container))
     }
 
     /// Opens a picture whose size is within the limits.
@@ -246,10 +249,6 @@ fn unreadable(error: io::Error) -> TextureProblem {
     if is_of_machine(&error) { TextureProblem::Machine { reason } } else { TextureProblem::Unreadable { reason } }
 }
 
-fn damaged(reason: impl std::fmt::Display) -> TextureProblem {
-    TextureProblem::Damaged { reason: decoder_words(reason) }
-}
-
 /// Light in floating point is never encoded.
 fn check_space(is_light: bool, file: &TextureFile, format: Format) -> Result<(), TextureProblem> {
     let why = if is_light && file.color_space == ColorSpace::Srgb {
@@ -270,56 +269,4 @@ impl Texels {
             Texels::Floats(floats) => four.map(|at| floats[at]),
         }
     }
-}
-
-/// Adds one texel. NaN becomes 0, and values that are too large become the largest that the format holds.
-fn pack(color: [f32; 4], format: Format, bytes: &mut Vec<u8>) -> Result<(), TextureProblem> {
-    use Format as F;
-    let color = color.map(|value| if value.is_nan() { 0.0 } else { value });
-    let components = format.components() as usize;
-    match format {
-        F::R8_UNORM | F::R8G8_UNORM | F::R8G8B8A8_UNORM | F::R8G8B8A8_SRGB => {
-            bytes.extend(color.iter().take(components).map(|value| fixed(*value, 255.0).to_ne_bytes()[LOW]));
-        }
-        F::R8_SNORM | F::R8G8_SNORM => {
-            bytes.extend(color.iter().take(components).map(|value| signed(*value)));
-        }
-        F::A2B10G10R10_UNORM_PACK32 => {
-            let [red, green, blue] = [color[0], color[1], color[2]].map(|value| u32::from(fixed(value, 1023.0)));
-            let word = u32::from(fixed(color[3], 3.0)) << 30 | blue << 20 | green << 10 | red;
-            bytes.extend(word.to_ne_bytes());
-        }
-        F::B8G8R8A8_UNORM | F::B8G8R8A8_SRGB => {
-            bytes.extend([2, 1, 0, 3].map(|at| fixed(color[at], 255.0).to_ne_bytes()[LOW]));
-        }
-        F::R16_UNORM | F::R16G16_UNORM | F::R16G16B16A16_UNORM => {
-            bytes.extend(color.iter().take(components).flat_map(|value| fixed(*value, 65535.0).to_ne_bytes()));
-        }
-        F::R16_SFLOAT | F::R16G16_SFLOAT | F::R16G16B16A16_SFLOAT => {
-            let largest = f32::from(f16::MAX);
-            let half = |value: &f32| f16::from_f32(value.clamp(-largest, largest)).to_ne_bytes();
-            bytes.extend(color.iter().take(components).flat_map(half));
-        }
-        F::R32_SFLOAT | F::R32G32_SFLOAT | F::R32G32B32A32_SFLOAT => {
-            let float = |value: &f32| value.clamp(f32::MIN, f32::MAX).to_ne_bytes();
-            bytes.extend(color.iter().take(components).flat_map(float));
-        }
-        _ => return Err(TextureProblem::Format { format, why: "no picture is stored in this format" }),
-    }
-    Ok(())
-}
-
-/// The place of the low byte of a 16-bit value in memory.
-const LOW: usize = if cfg!(target_endian = "little") { 0 } else { 1 };
-
-/// A value −1…1 in steps of 1 / 127, to the nearest.
-#[allow(clippy::cast_possible_truncation, reason = "-127 to 127")]
-fn signed(value: f32) -> u8 {
-    ((value.clamp(-1.0, 1.0) * 127.0).round() as i8).cast_unsigned()
-}
-
-/// A value 0…1 in steps of 1 / `most`, to the nearest.
-#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "0 to 65535")]
-fn fixed(value: f32, most: f32) -> u16 {
-    (value.clamp(0.0, 1.0) * most).round() as u16
 }

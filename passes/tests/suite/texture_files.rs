@@ -209,7 +209,7 @@ fn a_radiance_file_may_begin_with_the_name_of_any_program() {
         assert_eq!(texels([name.as_bytes(), rest].concat()).as_ref(), Ok(&expected), "{name}");
     }
     let no = texels([b"#!RGBE", rest].concat()).expect_err("no picture").to_string();
-    assert_eq!(no, "is no picture that can be read: neither PNG nor JPEG, HDR or EXR");
+    assert_eq!(no, "is no picture that can be read: neither PNG nor JPEG, HDR, EXR, KTX2 or DDS");
     let long = [&b"#?"[..], &[b'a'; 1000], rest].concat();
     assert!(texels(long).is_err());
 }
@@ -305,5 +305,5 @@ fn damaged_pictures_are_refused_with_words() {
     assert!(refused > 1000, "{refused}");
     let (_folder, mut textures) = folder(&[("a.png", b"not a picture at all".to_vec())]);
     let problem = textures.info(&file("a.png", Linear)).expect_err("no picture").to_string();
-    assert_eq!(problem, "is no picture that can be read: neither PNG nor JPEG, HDR or EXR");
+    assert_eq!(problem, "is no picture that can be read: neither PNG nor JPEG, HDR, EXR, KTX2 or DDS");
 }
