@@ -101,7 +101,7 @@ static BLENDS: [(&str, Blend); 4] = [
 ];
 
 /// A field that may be left out: `None` if it is there and wrong.
-type Optional<T> = Option<FieldValue<Option<T>>>;
+type OptionalField<T> = Option<FieldValue<Option<T>>>;
 
 impl Context<'_> {
     /// `raster`.
@@ -218,7 +218,7 @@ impl Context<'_> {
         leaf: Option<Leaf<'_>>,
         what: &'static str,
         choices: &'static [(&'static str, T)],
-    ) -> Optional<T> {
+    ) -> OptionalField<T> {
         optional(leaf, |leaf| self.word(leaf, what, choices).map(FieldValue::alone))
     }
 }
@@ -227,7 +227,7 @@ impl Context<'_> {
 fn optional<'src, T: FieldContents>(
     leaf: Option<Leaf<'src>>,
     read: impl FnOnce(Leaf<'src>) -> Option<FieldValue<T>>,
-) -> Optional<T> {
+) -> OptionalField<T> {
     match leaf {
         Some(leaf) => Some(read(leaf)?.map(Some)),
         None => Some(FieldValue::Constant(None)),
