@@ -51,7 +51,7 @@ pub(crate) fn check(checked: &impl CheckContext, pass: &Pass, errors: &mut Vec<D
 fn queue(checked: &impl CheckContext, pass: &Pass, errors: &mut Vec<Diagnostic>) {
     if pass.work.is_draw() {
         let message = "it draws within a rendering scope, which the queue for graphics alone has";
-        let help = "leave `queue: Any` out";
+        let help = "a pass without targets is recorded outside of rendering scopes";
         return errors.push(Diagnostic::new(Code::USE_UNFIT, pass.span, message).help(help));
     }
     for access in pass.accesses() {
@@ -72,7 +72,7 @@ fn queue(checked: &impl CheckContext, pass: &Pass, errors: &mut Vec<Diagnostic>)
         };
         if !pass.uses.iter().any(meets) {
             let message = format!("any queue may run the pass, and nothing says how it uses `{name}`");
-            let help = "declare it in `uses`, or leave `queue: Any` out: any command needs the queue for graphics";
+            let help = "declare it in `uses`: what isn't declared needs the queue for graphics";
             errors.push(Diagnostic::new(Code::USE_UNFIT, access.span(), message).help(help));
         }
     }
