@@ -106,7 +106,7 @@ fn binding(
     if !known.contains(flags) {
         return Err(misuse("flags that aren't known"));
     }
-    let stages = Stages::of_sets().iter().filter(|(_, bit, _)| it.stage_flags.as_raw() & bit != 0);
+    let stages = Stages::of_sets().into_iter().filter(|(_, bit, _)| it.stage_flags.as_raw() & bit != 0);
     let flags = BindingFlags {
         partially_bound: flags.contains(Flags::PARTIALLY_BOUND),
         update_after_bind: flags.contains(Flags::UPDATE_AFTER_BIND),
@@ -115,6 +115,6 @@ fn binding(
     };
     Ok(ProgramBinding::new(it.binding, kind)
         .with_count(it.descriptor_count)
-        .with_stages(stages.fold(Stages::empty(), |all, (.., stage)| all | *stage))
+        .with_stages(stages.fold(Stages::empty(), |all, (.., stage)| all | stage))
         .with_flags(flags))
 }

@@ -51,8 +51,10 @@ pub(super) fn write(sets: &[ProgramSet], text: &mut String) {
                 let _ = write!(text, ", count: {count}");
             }
             if *stages != Stages::all_of_sets() {
-                let named =
-                    Stages::of_sets().iter().filter(|(_, _, stage)| stages.contains(*stage)).map(|(name, ..)| *name);
+                let named = Stages::of_sets()
+                    .into_iter()
+                    .filter(|(_, _, stage)| stages.contains(*stage))
+                    .map(|(name, ..)| name);
                 let _ = write!(text, ", stages: [{}]", named.collect::<Vec<_>>().join(", "));
             }
             let mut flags = *flags;

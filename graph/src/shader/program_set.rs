@@ -312,7 +312,9 @@ impl ProgramResource {
 }
 
 fn stage_words(stages: Stages) -> String {
-    let named =
-        Stages::of_sets().iter().filter(|(_, _, stage)| stages.contains(*stage)).map(|(name, ..)| name.to_lowercase());
+    let named = Stages::of_sets()
+        .into_iter()
+        .filter(|(_, _, stage)| stages.contains(*stage))
+        .map(|(name, ..)| name.to_lowercase());
     named.collect::<Vec<_>>().join(" and ")
 }
