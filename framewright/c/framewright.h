@@ -384,16 +384,6 @@ FramewrightStatus framewright_pass_image(const FramewrightPass *pass, const char
 // Tells a buffer that a pass outside of a rendering scope accesses, by the pipeline's name.
 FramewrightStatus framewright_pass_buffer(const FramewrightPass *pass, const char *name, VkBuffer *buffer);
 
-// Binds a descriptor set of the program's for all passes whose shaders read the set of this number, from the next frame on, with its
-// dynamic offsets: `offset_count` of them, in the order of bindings. NULL in place of `descriptors` lets go of the one before. It must
-// have the layout that the renderer was told, and live until the last frame is done that it was bound in. What shaders read of it must be
-// there, in the state that it says: no Plan knows of it, and the program makes the barriers.
-FramewrightStatus framewright_renderer_bind_set(FramewrightRenderer *renderer,
-                                                uint32_t set,
-                                                VkDescriptorSet descriptors,
-                                                const uint32_t *offsets,
-                                                size_t offset_count);
-
 // Reads the pipeline in the file `pipeline`; where there is none, the shipped one of that name. Until it is told otherwise, the frame
 // has 1280×720 texels, and the scene may hold everything. `options` may be NULL.
 FramewrightStatus framewright_renderer_open(const FramewrightDevice *device,
@@ -439,6 +429,16 @@ FramewrightStatus framewright_renderer_files_changed(FramewrightRenderer *render
 
 // Reads the pipeline, its shaders and pictures anew, and plans. Mistakes in the files leave all as it was.
 FramewrightStatus framewright_renderer_reload(FramewrightRenderer *renderer);
+
+// Binds a descriptor set of the program's for all passes whose shaders read the set of this number, from the next frame on, with its
+// dynamic offsets: `offset_count` of them, in the order of bindings. NULL in place of `descriptors` lets go of the one before. It must
+// have the layout that the renderer was told, and live until the last frame is done that it was bound in. What shaders read of it must be
+// there, in the state that it says: no Plan knows of it, and the program makes the barriers.
+FramewrightStatus framewright_renderer_bind_set(FramewrightRenderer *renderer,
+                                                uint32_t set,
+                                                VkDescriptorSet descriptors,
+                                                const uint32_t *offsets,
+                                                size_t offset_count);
 
 // Plans the next frame if anything changed; every frame begins with it. `change` is told the most that changed since the last call of this
 // function, by whatever call, unless it is NULL.

@@ -266,7 +266,7 @@ fn a_table_of_the_programs_is_checked_without_the_program() {
         check("swiftshader").exits(1).mentions("[E0829]").mentions("engine.ron:15:58").mentions(said);
         place.file("interface.ron", text);
     };
-    let used = "shader `terrain` uses `textures`, set 2, binding 3 (terrain.frag:4): ";
+    let used = "shader `terrain` uses `textures`, set 2, binding 3 (./terrain.frag:4): ";
     let what = "the program's set has no such binding; it has 5";
     wrong("binding: 3", "binding: 5", &format!("{used}{what}"));
     let what = "it is declared as a sampled image with its sampler, and is a storage image";

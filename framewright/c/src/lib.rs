@@ -45,13 +45,13 @@ pub use passes::{
 };
 pub use renderer::{
     FramewrightChange, FramewrightFacts, FramewrightRenderer, FramewrightRendererOptions, FramewrightRotation,
-    FramewrightStereo, framewright_renderer_files_changed, framewright_renderer_free, framewright_renderer_open,
-    framewright_renderer_reload, framewright_renderer_set, framewright_renderer_set_extent,
+    FramewrightStereo, framewright_renderer_bind_set, framewright_renderer_files_changed, framewright_renderer_free,
+    framewright_renderer_open, framewright_renderer_reload, framewright_renderer_set, framewright_renderer_set_extent,
     framewright_renderer_set_facts, framewright_renderer_set_preset, framewright_renderer_set_recorder,
     framewright_renderer_set_rotation, framewright_renderer_set_scene, framewright_renderer_set_stereo,
 };
 pub use scene::{FramewrightScene, framewright_scene_free, framewright_scene_load, framewright_scene_mistake};
-pub use sets::{FramewrightSet, framewright_renderer_bind_set};
+pub use sets::FramewrightSet;
 pub use status::FramewrightStatus;
 pub use texels::{FramewrightTexels, framewright_renderer_read};
 pub use version::{FRAMEWRIGHT_ABI, framewright_abi, framewright_version};

@@ -1,7 +1,7 @@
 //! Renderers: a pipeline, and what was chosen for it.
 
 use crate::arguments::{
-    FramewrightNames, Structure, free, from_0, handle, optional_text, output, reference, structure, text,
+    FramewrightNames, Structure, free, from_0, handle, list, optional_text, output, reference, structure, text,
 };
 use crate::device::FramewrightDevice;
 use crate::last_error::call;
@@ -10,7 +10,8 @@ use crate::scene::FramewrightScene;
 use crate::sets::{FramewrightSet, program_sets};
 use crate::status::{FramewrightStatus, Problem};
 use framewright::graph::base::Root;
-use framewright::{Facts, Renderer, RendererOptions, Rotation, Scene, SceneDrawSource, Stereo, Texels};
+use framewright::vulkan::ash::vk;
+use framewright::{Facts, RawSet, Renderer, RendererOptions, Rotation, Scene, SceneDrawSource, Stereo, Texels};
 use std::ffi::{c_char, c_void};
 use std::sync::{Arc, Mutex, TryLockError};
 
@@ -413,6 +414,32 @@ pub unsafe extern "C" fn framewright_renderer_reload(renderer: *mut FramewrightR
         with(renderer, |state| {
             state.renderer.reload()?;
             state.planned_anew();
+            Ok(())
+        })
+    }
+}
+
+/// Binds a descriptor set of the program's for all passes whose shaders read the set of this number, from the next frame on, with its
+/// dynamic offsets: `offset_count` of them, in the order of bindings. NULL in place of `descriptors` lets go of the one before. It must
+/// have the layout that the renderer was told, and live until the last frame is done that it was bound in. What shaders read of it must be
+/// there, in the state that it says: no Plan knows of it, and the program makes the barriers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_bind_set(
+    renderer: *mut FramewrightRenderer,
+    set: u32,
+    descriptors: vk::DescriptorSet,
+    offsets: *const u32,
+    offset_count: usize,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            let offsets = list(offsets, offset_count, "offsets")?;
+            if descriptors == vk::DescriptorSet::null() {
+                state.renderer.unbind_set(set);
+            } else {
+                state.renderer.bind_set(set, RawSet::new(descriptors), offsets);
+            }
             Ok(())
         })
     }

@@ -1,11 +1,10 @@
-//! Descriptor sets that the program makes and binds itself.
+//! The layouts of descriptor sets that the program makes and binds itself.
 
 use crate::arguments::list;
-use crate::renderer::{FramewrightRenderer, with};
-use crate::status::{FramewrightStatus, Problem};
+use crate::status::Problem;
 use framewright::graph::vulkan::Stages;
 use framewright::vulkan::ash::vk;
-use framewright::{BindingFlags, DescriptorType, DrawInterfaces, ProgramBinding, ProgramSet, RawSet, SetLayouts};
+use framewright::{BindingFlags, DescriptorType, DrawInterfaces, ProgramBinding, ProgramSet, SetLayouts};
 
 /// The layout of a descriptor set that the program makes and binds itself.
 #[repr(C)]
@@ -23,13 +22,6 @@ pub struct FramewrightSet {
     /// The layout that the program made so, which lives as long as the device; NULL: one is made of the bindings. Immutable samplers take one.
     pub layout: vk::DescriptorSetLayout,
 }
-
-/// The stages whose shaders read sets.
-const STAGES: [(vk::ShaderStageFlags, Stages); 3] = [
-    (vk::ShaderStageFlags::VERTEX, Stages::VERTEX_SHADER),
-    (vk::ShaderStageFlags::FRAGMENT, Stages::FRAGMENT_SHADER),
-    (vk::ShaderStageFlags::COMPUTE, Stages::COMPUTE_SHADER),
-];
 
 /// Takes the sets of a program.
 ///
@@ -63,7 +55,7 @@ pub(crate) unsafe fn program_sets(
                 );
                 return Err(Problem::Misuse(what));
             }
-            let made = STAGES.iter().fold(vk::ShaderStageFlags::empty(), |all, (flag, _)| all | *flag);
+            let made = vk::ShaderStageFlags::from_raw(Stages::of_sets().iter().fold(0, |all, (_, bit, _)| all | bit));
             if !made.contains(it.stage_flags) && !has_layout {
                 let what = format!(
                     "binding {} of set {} is for other stages, and the set has no `layout`",
@@ -114,7 +106,7 @@ fn binding(
     if !known.contains(flags) {
         return Err(misuse("flags that aren't known"));
     }
-    let stages = STAGES.iter().filter(|(flag, _)| it.stage_flags.contains(*flag));
+    let stages = Stages::of_sets().into_iter().filter(|(_, bit, _)| it.stage_flags.as_raw() & bit != 0);
     let flags = BindingFlags {
         partially_bound: flags.contains(Flags::PARTIALLY_BOUND),
         update_after_bind: flags.contains(Flags::UPDATE_AFTER_BIND),
@@ -123,32 +115,6 @@ fn binding(
     };
     Ok(ProgramBinding::new(it.binding, kind)
         .with_count(it.descriptor_count)
-        .with_stages(stages.fold(Stages::empty(), |all, (_, stage)| all | *stage))
+        .with_stages(stages.fold(Stages::empty(), |all, (.., stage)| all | stage))
         .with_flags(flags))
-}
-
-/// Binds a descriptor set of the program's for all passes whose shaders read the set of this number, from the next frame on, with its
-/// dynamic offsets: `offset_count` of them, in the order of bindings. NULL in place of `descriptors` lets go of the one before. It must
-/// have the layout that the renderer was told, and live until the last frame is done that it was bound in. What shaders read of it must be
-/// there, in the state that it says: no Plan knows of it, and the program makes the barriers.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn framewright_renderer_bind_set(
-    renderer: *mut FramewrightRenderer,
-    set: u32,
-    descriptors: vk::DescriptorSet,
-    offsets: *const u32,
-    offset_count: usize,
-) -> FramewrightStatus {
-    // SAFETY: the caller's word.
-    unsafe {
-        with(renderer, |state| {
-            let offsets = list(offsets, offset_count, "offsets")?;
-            if descriptors == vk::DescriptorSet::null() {
-                state.renderer.unbind_set(set);
-            } else {
-                state.renderer.bind_set(set, RawSet::new(descriptors), offsets);
-            }
-            Ok(())
-        })
-    }
 }

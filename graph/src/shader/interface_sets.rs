@@ -1,8 +1,7 @@
 //! The program's sets in the file of a draw source's interfaces.
 
 use super::interface_file::{list, number};
-use super::program_set::{ALL_STAGES, STAGES};
-use super::{BindingFlags, DescriptorType, DrawInterfaces, ProgramBinding, ProgramSet, SetFault};
+use super::{BindingFlags, DescriptorType, DrawInterfaces, ProgramBinding, ProgramSet};
 use crate::base::Code;
 use crate::fields;
 use crate::ron::{Leaf, Reader};
@@ -47,12 +46,15 @@ pub(super) fn write(sets: &[ProgramSet], text: &mut String) {
         // Writing to a text can't fail.
         let _ = writeln!(text, "        (\n            set: {set},\n            bindings: [");
         for ProgramBinding { binding, kind, count, stages, flags } in bindings {
-            let _ = write!(text, "                (binding: {binding}, kind: {kind:?}");
+            let _ = write!(text, "                (binding: {binding}, kind: {}", kind.name());
             if *count != 1 {
                 let _ = write!(text, ", count: {count}");
             }
-            if *stages != ALL_STAGES {
-                let named = STAGES.iter().filter(|(_, stage)| stages.contains(*stage)).map(|(name, _)| *name);
+            if *stages != Stages::all_of_sets() {
+                let named = Stages::of_sets()
+                    .into_iter()
+                    .filter(|(_, _, stage)| stages.contains(*stage))
+                    .map(|(name, ..)| name);
                 let _ = write!(text, ", stages: [{}]", named.collect::<Vec<_>>().join(", "));
             }
             let mut flags = *flags;
@@ -88,10 +90,10 @@ pub(super) fn read(reader: &mut Reader, all: Leaf<'_>, mut interfaces: DrawInter
         return Some(interfaces);
     }
     places.sort_by_key(|(set, ..)| *set);
-    for SetFault { set, binding, message } in interfaces.set_faults() {
-        let Some((_, whole, bindings)) = places.get(set) else { continue };
-        let leaf = binding.and_then(|binding| bindings.get(binding)).unwrap_or(whole);
-        reader.wrong(Code::INTERFACE_FILE, *leaf, message, "");
+    for fault in interfaces.set_faults() {
+        let Some((_, whole, bindings)) = places.get(fault.set) else { continue };
+        let leaf = fault.binding.and_then(|binding| bindings.get(binding)).unwrap_or(whole);
+        reader.wrong(Code::INTERFACE_FILE, *leaf, fault.message, "");
     }
     Some(interfaces)
 }
@@ -101,11 +103,12 @@ fn binding(reader: &mut Reader, leaf: Leaf<'_>) -> Option<ProgramBinding> {
     let binding = number(reader, fields.binding, "the binding");
     let kind = reader.choice(fields.kind, "a type of descriptors", DescriptorType::NAMED);
     let count = fields.count.map_or(Some(1), |leaf| number(reader, leaf, "the count"));
+    let named = Stages::of_sets().map(|(name, _, stage)| (name, stage));
     let stages = match fields.stages {
-        None => Some(ALL_STAGES),
+        None => Some(Stages::all_of_sets()),
         Some(leaf) => list(reader, Some(leaf), "stages")
             .into_iter()
-            .try_fold(Stages::empty(), |all, stage| Some(all | reader.choice(stage, "a stage", &STAGES)?)),
+            .try_fold(Stages::empty(), |all, stage| Some(all | reader.choice(stage, "a stage", &named)?)),
     };
     let mut flags = BindingFlags::default();
     for leaf in list(reader, fields.flags, "flags") {

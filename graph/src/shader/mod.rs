@@ -13,6 +13,7 @@ mod param_type;
 mod place_names;
 mod problem;
 mod program_set;
+mod set_faults;
 mod shader_name;
 mod vertex_layout;
 
@@ -36,9 +37,9 @@ pub use place_names::{
     GivenNames, PASS_SET, binding_name, binding_of, constant_name, is_place, location_name, offset_name, offset_of,
 };
 pub use program_set::{
-    BindingFlags, DescriptorType, ProgramBinding, ProgramResource, ProgramSet, SetFault, bindings_of_read_sets,
-    set_needs,
+    BindingFlags, DescriptorType, ProgramBinding, ProgramResource, ProgramSet, bindings_of_read_sets, set_needs,
 };
+pub use set_faults::SetFault;
 pub use shader_name::{FileLanguage, LanguageFacts, ShaderName, StageName};
 pub use vertex_layout::{LayoutFault, LocationLayout, VertexInput, VertexLayout};
 

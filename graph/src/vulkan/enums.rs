@@ -110,6 +110,22 @@ bitflags! {
 }
 
 impl Stages {
+    /// The stages whose shaders read descriptor sets: the name in files, the bit of `VkShaderStageFlagBits`, and the stage.
+    #[must_use]
+    pub const fn of_sets() -> [(&'static str, u32, Stages); 3] {
+        [
+            ("Vertex", 0x1, Stages::VERTEX_SHADER),
+            ("Fragment", 0x10, Stages::FRAGMENT_SHADER),
+            ("Compute", 0x20, Stages::COMPUTE_SHADER),
+        ]
+    }
+
+    /// All of these.
+    #[must_use]
+    pub const fn all_of_sets() -> Stages {
+        Stages::VERTEX_SHADER.union(Stages::FRAGMENT_SHADER).union(Stages::COMPUTE_SHADER)
+    }
+
     /// Every stage of shaders.
     pub const SHADERS: Stages = Stages::VERTEX_SHADER
         .union(Stages::FRAGMENT_SHADER)
