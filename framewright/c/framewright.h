@@ -206,6 +206,9 @@ typedef struct {
     FramewrightNames settings;
     // Extensions that are applied to the pipeline: files, or paths of shipped ones.
     FramewrightNames extensions;
+    // Commands that compile shaders in HLSL, Slang and WGSL, each with its language: `hlsl=dxc`, `slang=slangc -O0`. Later ones are
+    // stronger. docs/hlsl.md has more.
+    FramewrightNames shader_compilers;
 } FramewrightRendererOptions;
 
 // Records a custom pass: commands that touch what the pipeline says that the pass touches, and what is the program's own. Returns 0 if it
