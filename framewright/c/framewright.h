@@ -227,6 +227,9 @@ typedef struct {
     const FramewrightSet *sets;
     // How many there are.
     size_t set_count;
+    // Commands that compile shaders in HLSL, Slang and WGSL, each with its language: `hlsl=dxc`, `slang=slangc -O0`. Later ones are
+    // stronger. docs/hlsl.md has more.
+    FramewrightNames shader_compilers;
 } FramewrightRendererOptions;
 
 // Records a custom pass: commands that touch what the pipeline says that the pass touches, and what is the program's own. Returns 0 if it

@@ -223,6 +223,7 @@ fn pass(name: &str, shader: &str, draw: Draw, target: ImageId) -> Pass {
         depth: None,
         stencil: None,
         params: Vec::new(),
+        constants: Vec::new(),
         accesses: vec![access(target, State { accesses: Accesses::COLOR_ATTACHMENT_WRITE, ..DRAWN })],
         buffers: Vec::new(),
         local_barrier: false,

@@ -73,7 +73,7 @@ fn constants_have_the_values_that_the_file_gives() -> Result<(), Box<dyn Error>>
     for (factor, number) in [("3", 3), ("4", 4)] {
         let set = [("factor", factor)];
         let setup = Setup { pipeline: "tests/pipelines/constants.ron", set: &set, scene: &scene, extent: [8, 8] };
-        let (_, executor) = draw(device, &setup, &Options::default(), 1)?;
+        let (_, mut executor) = draw(device, &setup, &Options::default(), 1)?;
         for buffer in ["glsl", "hlsl"] {
             let bytes = executor.read_buffer(buffer)?;
             let numbers: Vec<u32> = bytes.as_chunks().0.iter().map(|word| u32::from_ne_bytes(*word)).collect();

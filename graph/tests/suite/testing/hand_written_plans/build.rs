@@ -168,6 +168,7 @@ pub(crate) fn draw(
         depth,
         stencil: None,
         params: Vec::new(),
+        constants: Vec::new(),
         accesses,
         buffers: Vec::new(),
         local_barrier: false,
