@@ -10,14 +10,16 @@ mod image_shape;
 pub(crate) mod layout;
 mod name;
 mod raster;
+mod real;
 mod rotation;
+mod sampler;
 mod stage;
 pub(crate) mod states;
 
 pub use access::AccessKind;
 pub use encoding::Encoding;
 pub use enums::{
-    Accesses, AddressMode, Aspects, BufferUsage, CompareOp, Filter, Layout, LoadOp, ResolveMode, Sampler, Shape,
+    Accesses, Aspects, BufferUsage, CompareOp, Filter, Layout, LoadOp, ResolveMode, Shape,
     Sharing, Stages, State, StencilOp, StoreOp, Subresources, Usage,
 };
 pub use fill_value::FillValue;
@@ -28,4 +30,6 @@ pub use image_shape::{Component, Dimension, ImageShape};
 pub(crate) use name::in_plan;
 pub use name::name_of;
 pub use raster::{BlendFactor, BlendOp, ColorComponents, CullMode, FrontFace, PrimitiveTopology};
+pub use real::Real;
 pub use rotation::Rotation;
+pub use sampler::{AddressMode, BorderColor, Sampler, SamplerReductionMode};

@@ -156,4 +156,10 @@ room! {
     /// A sampler of its own (`sampler`, HLSL's `SamplerState`) takes filter and address from the images that it samples. Say the same
     /// `filter`, `mip_filter` and `address` of all of them.
     SAMPLER_SHARED = 828,
+
+    /// An image can't be sampled so.
+    ///
+    /// A border goes with `address: Border`, and is one of integers where the image holds integers. Anisotropy goes with
+    /// `filter: Linear`, and the least mip level lies below the greatest. What is compared has no reduction.
+    SAMPLER_UNFIT = 829,
 }
