@@ -41,6 +41,7 @@ mod raster_states;
 mod resolves;
 mod rotation;
 mod saved_profiles;
+mod samplers;
 mod scale;
 mod shadow_errors;
 mod shadows;
