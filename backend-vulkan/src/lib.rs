@@ -54,13 +54,13 @@ pub use ash;
 pub use base::{Blame, Cache, CachedFiles, Error, INSTALL, end_process};
 pub use commands::Texels;
 pub use execute::{Executor, ExecutorOptions, ExternalStates, ResourceState, SemaphorePoint, Submission};
+/// The faces that draws leave out, and which side is the front.
+pub use framewright_graph::vulkan::{CullMode, FrontFace};
 pub use gpu::{
     AdoptedDevice, Device, DeviceChoice, DeviceFeatures, DeviceOptions, DeviceSummary, MINIMUM_VERSION, Message,
     MessageKind, Messages, PipelineCounts, SamplerDescriptor, ScopeFormats, Severity, layer, minimum_features,
     optional_features, rotation_of_surface,
 };
-/// The faces that draws leave out, and which side is the front.
-pub use framewright_graph::vulkan::{CullMode, FrontFace};
 /// The allocator of device memory, for programs whose own one serves an [adopted](AdoptedDevice) device.
 pub use gpu_allocator;
 pub use helper::Helper;
@@ -70,8 +70,7 @@ pub use probe::Canary;
 /// The handles of windows and displays, for programs that show pictures.
 pub use raw_window_handle;
 pub use record::{
-    CustomImage, CustomRecorder, DispatchRecorder, DrawSource, FrameReport, IndexType, PassReport,
-    Recorder, StepReport,
+    CustomImage, CustomRecorder, DispatchRecorder, DrawSource, FrameReport, IndexType, PassReport, Recorder, StepReport,
 };
 pub use resources::{BindGroup, Buffer, BufferUsage, DynamicBuffer, Resource, Texture};
 pub use shaders::{PrecompiledShaders, ShaderLibrary};

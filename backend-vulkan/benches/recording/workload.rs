@@ -310,5 +310,12 @@ fn sampled(reads: &[ImageIndex], stages: Stages) -> Vec<SampledImage> {
 }
 
 fn color(image: ImageIndex, blend: Blend) -> ColorTarget {
-    ColorTarget { image, range: Subresources::WHOLE, span: Span::NONE, clear: None, blend, write_mask: Default::default() }
+    ColorTarget {
+        image,
+        range: Subresources::WHOLE,
+        span: Span::NONE,
+        clear: None,
+        blend,
+        write_mask: Default::default(),
+    }
 }

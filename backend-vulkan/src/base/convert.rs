@@ -2,8 +2,9 @@
 
 use ash::vk;
 use framewright_graph::vulkan::{
-    Accesses, Aspects, BlendFactor, BlendOp, BorderColor, BufferUsage, ColorComponents, CompareOp, CullMode, FillValue, Filter, Format,
-    FrontFace, Layout, LoadOp, Numeric, PrimitiveTopology, ResolveMode, SamplerReductionMode, Stages, StencilOp, StoreOp, Subresources, Usage,
+    Accesses, Aspects, BlendFactor, BlendOp, BorderColor, BufferUsage, ColorComponents, CompareOp, CullMode, FillValue,
+    Filter, Format, FrontFace, Layout, LoadOp, Numeric, PrimitiveTopology, ResolveMode, SamplerReductionMode, Stages,
+    StencilOp, StoreOp, Subresources, Usage,
 };
 
 pub(crate) fn format(format: Format) -> vk::Format {

@@ -149,9 +149,7 @@ impl PassSet {
                         buffers.push(buffer.clone());
                         DescriptorTarget::Buffer(buffer.raw)
                     }
-                    BoundResource::Sampler(sampler) => {
-                        DescriptorTarget::Sampler(frame.gpu.sampler(*sampler)?)
-                    }
+                    BoundResource::Sampler(sampler) => DescriptorTarget::Sampler(frame.gpu.sampler(*sampler)?),
                     BoundResource::Image { image, range, shape, layout, sampler } => {
                         let image = frame.image(*image);
                         images.push(image.clone());

@@ -149,8 +149,14 @@ fn frame(stereo: Stereo, format: Format, samples: u32, modes: &[ResolveMode]) ->
     }
     let slope =
         SampledImage { face: Face::Samples, ..SampledImage::new("slope", ImageIndex(1), Stages::FRAGMENT_SHADER) };
-    let target =
-        ColorTarget { image: ImageIndex(0), range: whole, span: Span::NONE, clear: None, blend: Blend::Replace, write_mask: ColorComponents::RGBA };
+    let target = ColorTarget {
+        image: ImageIndex(0),
+        range: whole,
+        span: Span::NONE,
+        clear: None,
+        blend: Blend::Replace,
+        write_mask: ColorComponents::RGBA,
+    };
     frame.passes.push(Pass { sampled: vec![slope], color: vec![target], ..full_screen("expect", "expect") });
     frame.outputs = (0..).take(frame.images.len()).map(|image| Resource::Image(ImageIndex(image)).into()).collect();
     frame

@@ -71,7 +71,8 @@ fn frame(claimed: &Profile, samples: u32) -> Frame {
         let image = ImageIndex(number);
         let work = Work::Draw { draw: Draw::FullScreen, shader: shader.into(), discards: false, per_sample: true };
         let (range, span) = (Subresources::WHOLE, Span::NONE);
-        let target = ColorTarget { image, range, span, clear: None, blend: Blend::Replace, write_mask: ColorComponents::RGBA };
+        let target =
+            ColorTarget { image, range, span, clear: None, blend: Blend::Replace, write_mask: ColorComponents::RGBA };
         frame.images.push(Image { samples, ..Image::new(&name, format, 1, 1) });
         frame.passes.push(Pass { color: vec![target], ..Pass::new(&name, work) });
         frame.outputs.push(Resource::Image(image).into());

@@ -46,7 +46,14 @@ pub(crate) fn probe(device: &Device) -> Result<bool, Error> {
 fn frame() -> Frame {
     let eyes = Image { eyes: Some(EyeForm::Layers), ..Image::new("eyes", Format::R8G8B8A8_UNORM, 4, 4) };
     let (image, range) = (ImageIndex(0), Subresources::WHOLE);
-    let target = ColorTarget { image, range, span: Span::NONE, clear: None, blend: Blend::Replace, write_mask: ColorComponents::RGBA };
+    let target = ColorTarget {
+        image,
+        range,
+        span: Span::NONE,
+        clear: None,
+        blend: Blend::Replace,
+        write_mask: ColorComponents::RGBA,
+    };
     let draw = Work::Draw { draw: Draw::FullScreen, shader: "eyes".into(), discards: false, per_sample: false };
     Frame {
         stereo: Stereo::Multiview,

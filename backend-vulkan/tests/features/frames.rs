@@ -269,7 +269,14 @@ impl Uses for Pass {
     }
 
     fn draws(mut self, image: ImageIndex, range: Subresources, clear: Option<[f64; 4]>) -> Pass {
-        self.color.push(ColorTarget { image, range, span: Span::NONE, clear, blend: Blend::Replace, write_mask: Default::default() });
+        self.color.push(ColorTarget {
+            image,
+            range,
+            span: Span::NONE,
+            clear,
+            blend: Blend::Replace,
+            write_mask: Default::default(),
+        });
         self
     }
 

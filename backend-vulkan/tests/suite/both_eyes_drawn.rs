@@ -42,7 +42,8 @@ fn plan(device: &Device, (stereo, form): (Stereo, EyeForm)) -> Plan {
     let eyes = Image { eyes: Some(form), ..Image::new("eyes", Format::R8G8B8A8_UNORM, EXTENT[0], EXTENT[1]) };
     let (image, range) = (ImageIndex(0), Subresources::WHOLE);
     let clear = Some([0.0, 0.0, 0.0, 1.0]);
-    let target = ColorTarget { image, range, span: Span::NONE, clear, blend: Blend::Replace, write_mask: Default::default() };
+    let target =
+        ColorTarget { image, range, span: Span::NONE, clear, blend: Blend::Replace, write_mask: Default::default() };
     let draw = Draw::Objects(DrawList::Opaque);
     let draw = Work::Draw { draw, shader: "eyes".into(), discards: false, per_sample: false };
     let frame = Frame {

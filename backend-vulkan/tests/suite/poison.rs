@@ -47,7 +47,14 @@ fn pass(name: &str, shader: &str, sampled: &[(&str, u32)], target: u32) -> Pass 
     let (image, range) = (ImageIndex(target), Subresources::WHOLE);
     Pass {
         sampled: sampled.collect(),
-        color: vec![ColorTarget { image, range, span: Span::NONE, clear: None, blend: Blend::Replace, write_mask: Default::default() }],
+        color: vec![ColorTarget {
+            image,
+            range,
+            span: Span::NONE,
+            clear: None,
+            blend: Blend::Replace,
+            write_mask: Default::default(),
+        }],
         ..Pass::new(name, work)
     }
 }

@@ -181,8 +181,14 @@ mod tests {
             let image = ImageIndex(u32::try_from(frame.images.len()).expect("few"));
             frame.images.push(Image::new(&format!("i{}", image.0), Format::R8G8B8A8_SRGB, side, side));
             let work = Work::Draw { draw: Draw::FullScreen, shader: "s".into(), discards: false, per_sample: false };
-            let target =
-                ColorTarget { image, range: Subresources::WHOLE, span: Span::NONE, clear: None, blend: Blend::Replace, write_mask: ColorComponents::RGBA };
+            let target = ColorTarget {
+                image,
+                range: Subresources::WHOLE,
+                span: Span::NONE,
+                clear: None,
+                blend: Blend::Replace,
+                write_mask: ColorComponents::RGBA,
+            };
             frame.passes.push(Pass { color: vec![target], ..Pass::new(&format!("p{}", image.0), work) });
         }
         let captures = frame.captures(|_| true).of_passes;

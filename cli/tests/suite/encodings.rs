@@ -58,8 +58,14 @@ fn drawn(frame: &mut Frame, shader: &str, format: Format, from: Option<ImageInde
     frame.images.push(Image::new(&format!("{shader}ed"), format, WIDTH, height));
     let work = Work::Draw { draw: Draw::FullScreen, shader: shader.into(), discards: false, per_sample: false };
     let sampled = from.map(|image| SampledImage::new("source", image, Stages::FRAGMENT_SHADER));
-    let color =
-        ColorTarget { image: to, range: Subresources::WHOLE, span: Span::NONE, clear: None, blend: Blend::Replace, write_mask: Default::default() };
+    let color = ColorTarget {
+        image: to,
+        range: Subresources::WHOLE,
+        span: Span::NONE,
+        clear: None,
+        blend: Blend::Replace,
+        write_mask: Default::default(),
+    };
     frame.passes.push(Pass { sampled: sampled.into_iter().collect(), color: vec![color], ..Pass::new(shader, work) });
     to
 }

@@ -220,7 +220,14 @@ mod tests {
         pass.sampled = vec![SampledImage::new("s", image(0), stages)];
         pass.storage =
             vec![Storage { binding: "t".into(), image: image(1), range, span, read: true, write: true, stages }];
-        pass.color = vec![ColorTarget { image: image(2), range, span, clear: None, blend: Blend::Replace, write_mask: ColorComponents::RGBA }];
+        pass.color = vec![ColorTarget {
+            image: image(2),
+            range,
+            span,
+            clear: None,
+            blend: Blend::Replace,
+            write_mask: ColorComponents::RGBA,
+        }];
         let test = CompareOp::Always;
         pass.depth = Some(DepthTarget { image: image(3), range, span, clear: None, test, write: true, stencil: None });
         let (buffer, role) = (BufferIndex(4), BufferRole::Uniform);

@@ -1,6 +1,8 @@
 //! Passes of a frame, and their work.
 
-use super::{BufferUse, ColorTarget, DepthTarget, ParamValue, RasterState, SampledImage, Storage, TransferUse, ViewIndex, Work};
+use super::{
+    BufferUse, ColorTarget, DepthTarget, ParamValue, RasterState, SampledImage, Storage, TransferUse, ViewIndex, Work,
+};
 use crate::base::Span;
 use crate::device::Need;
 use std::sync::Arc;

@@ -169,9 +169,7 @@ impl Blend {
     #[must_use]
     pub fn takes_second_source(self) -> bool {
         self.equation().is_some_and(|it| {
-            [it.src_color, it.dst_color, it.src_alpha, it.dst_alpha]
-                .into_iter()
-                .any(BlendFactor::is_of_second_source)
+            [it.src_color, it.dst_color, it.src_alpha, it.dst_alpha].into_iter().any(BlendFactor::is_of_second_source)
         })
     }
 

@@ -2,7 +2,9 @@
 
 use super::{BlendEquation, BufferIndex, BufferRole, Eye, ImageIndex, Resource};
 use crate::base::Span;
-use crate::vulkan::{Aspects, ColorComponents, CompareOp, Filter, Format, ImageShape, Sampler, Stages, StencilOp, Subresources};
+use crate::vulkan::{
+    Aspects, ColorComponents, CompareOp, Filter, Format, ImageShape, Sampler, Stages, StencilOp, Subresources,
+};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 

@@ -3,8 +3,8 @@
 use super::{BufferId, Cause, ImageId, Reason, Resource, ViewId};
 use crate::frame::{Blend, BufferRole, Draw, Eye, Groups, ParamValue, RasterState, StencilState};
 use crate::vulkan::{
-    Accesses, Aspects, ColorComponents, CompareOp, FillValue, Filter, ImageShape, Layout, LoadOp, ResolveMode, Sampler, Stages, StoreOp,
-    Subresources,
+    Accesses, Aspects, ColorComponents, CompareOp, FillValue, Filter, ImageShape, Layout, LoadOp, ResolveMode, Sampler,
+    Stages, StoreOp, Subresources,
 };
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;

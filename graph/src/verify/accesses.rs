@@ -16,7 +16,8 @@ use super::work::{is_attached, mip_extent};
 use crate::frame::{Blend, Draw};
 use crate::plan::{self, Attachment, AttachmentKind, BufferId, ImageId, Pass, RenderScope, Side, Transfer, Work};
 use crate::vulkan::{
-    Accesses, BufferUsage, ColorComponents, CompareOp, CullMode, Layout, LoadOp, Stages, StencilOp, StoreOp, Subresources, Usage,
+    Accesses, BufferUsage, ColorComponents, CompareOp, CullMode, Layout, LoadOp, Stages, StencilOp, StoreOp,
+    Subresources, Usage,
 };
 
 /// How an access is kept apart from others of its step.

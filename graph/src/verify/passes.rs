@@ -10,9 +10,8 @@ use crate::plan::names::ShownText;
 use crate::plan::{Access, Attachment, BindingKind, BufferAccess, Image, Pass, RenderScope};
 use crate::shader::MOST_PARTS;
 use crate::vulkan::{
-    Accesses, Aspects, CompareOp, Component, Dimension, Format, ImageShape, Layout, PrimitiveTopology, Sampler,
-    Shape, Stages,
-    StencilOp, name_of,
+    Accesses, Aspects, CompareOp, Component, Dimension, Format, ImageShape, Layout, PrimitiveTopology, Sampler, Shape,
+    Stages, StencilOp, name_of,
 };
 
 const STORAGE: Accesses = Accesses::SHADER_STORAGE_READ.union(Accesses::SHADER_STORAGE_WRITE);

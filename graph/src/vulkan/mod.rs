@@ -19,8 +19,8 @@ pub(crate) mod states;
 pub use access::AccessKind;
 pub use encoding::Encoding;
 pub use enums::{
-    Accesses, Aspects, BufferUsage, CompareOp, Filter, Layout, LoadOp, ResolveMode, Shape,
-    Sharing, Stages, State, StencilOp, StoreOp, Subresources, Usage,
+    Accesses, Aspects, BufferUsage, CompareOp, Filter, Layout, LoadOp, ResolveMode, Shape, Sharing, Stages, State,
+    StencilOp, StoreOp, Subresources, Usage,
 };
 pub use fill_value::FillValue;
 pub(crate) use foreign_formats::vulkans_name;

@@ -206,9 +206,7 @@ impl Sampler {
             () if self.reduces() && self.compare.is_some() => {
                 Some("what is compared is neither the least nor the greatest of texels")
             }
-            () if self.anisotropy > 1 && self.filter == Filter::Nearest => {
-                Some("anisotropy goes with a linear filter")
-            }
+            () if self.anisotropy > 1 && self.filter == Filter::Nearest => Some("anisotropy goes with a linear filter"),
             () if greatest.is_some_and(|greatest| least.is_some_and(|least| least > greatest)) => {
                 Some("its least mip level lies above its greatest")
             }

@@ -34,7 +34,14 @@ fn block(name: &str, buffer: u32, read: bool, stages: Stages) -> BufferUse {
 
 fn target(image: u32) -> ColorTarget {
     let (range, span) = (Subresources::WHOLE, Span::NONE);
-    ColorTarget { image: ImageIndex(image), range, span, clear: Some([0.0; 4]), blend: Default::default(), write_mask: Default::default() }
+    ColorTarget {
+        image: ImageIndex(image),
+        range,
+        span,
+        clear: Some([0.0; 4]),
+        blend: Default::default(),
+        write_mask: Default::default(),
+    }
 }
 
 /// A compute pass and a fill write what two custom passes read, and a compute pass reads what one of them writes.

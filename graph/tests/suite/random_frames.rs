@@ -119,7 +119,14 @@ impl Maker {
         let blend = if self.one_in(2) && !IMAGES[image].0.is_integer() { Blend::Alpha } else { Blend::Replace };
         let clear = self.one_in(4).then_some([if IMAGES[image].0.is_integer() { 5.0 } else { 0.5 }; 4]);
         let image = ImageIndex(image as u32);
-        pass.color.push(ColorTarget { image, range: Subresources::WHOLE, span: Span::NONE, clear, blend, write_mask: Default::default() });
+        pass.color.push(ColorTarget {
+            image,
+            range: Subresources::WHOLE,
+            span: Span::NONE,
+            clear,
+            blend,
+            write_mask: Default::default(),
+        });
     }
 
     /// Up to three images that are written by now; depth only where the pass doesn't change it.

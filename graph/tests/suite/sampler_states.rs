@@ -20,12 +20,16 @@ fn text(sampler: &str) -> String {
 }
 
 fn sampler_mut(plan: &mut Plan) -> &mut Sampler {
-    let scopes = plan.steps.iter_mut().filter_map(|step| if let Work::Render(scope) = &mut step.work { Some(scope) } else { None });
+    let scopes = plan
+        .steps
+        .iter_mut()
+        .filter_map(|step| if let Work::Render(scope) = &mut step.work { Some(scope) } else { None });
     let passes = scopes.flat_map(|scope| &mut scope.passes).filter(|pass| &*pass.name == "look");
-    let mut samplers = passes.flat_map(|pass| &mut pass.accesses).filter_map(|access| match &mut access.binding.as_mut()?.kind {
-        BindingKind::Sampled(sampler) => Some(sampler),
-        BindingKind::Storage | BindingKind::InputAttachment => None,
-    });
+    let mut samplers =
+        passes.flat_map(|pass| &mut pass.accesses).filter_map(|access| match &mut access.binding.as_mut()?.kind {
+            BindingKind::Sampled(sampler) => Some(sampler),
+            BindingKind::Storage | BindingKind::InputAttachment => None,
+        });
     samplers.next().expect("it samples")
 }
 
@@ -49,7 +53,8 @@ fn states_stand_in_the_plan_where_they_say_something_and_nowhere_else() {
     );
     let json = all.to_json().expect("it is written");
     assert_eq!(Plan::from_json(&json).expect("it is read"), all);
-    let words = "CLAMP_TO_BORDER, border FLOAT_OPAQUE_WHITE, reduced to MAX, anisotropy 16, level bias -2.5, levels 0.5 to 3";
+    let words =
+        "CLAMP_TO_BORDER, border FLOAT_OPAQUE_WHITE, reduced to MAX, anisotropy 16, level bias -2.5, levels 0.5 to 3";
     assert!(all.tree().contains(words), "{}", all.tree());
     let sampler = *sampler_mut(&mut all);
     assert_eq!((sampler.address, sampler.border), (AddressMode::ClampToBorder, Some(BorderColor::FloatOpaqueWhite)));
@@ -77,7 +82,8 @@ fn what_a_device_lacks_is_refused_with_feature_place_and_device() {
     };
     for (feature, sampler) in cases {
         for (missing, _) in cases {
-            let without = refused(sampler, &|device| device.features.as_mut().expect("known").retain(|it| it != missing));
+            let without =
+                refused(sampler, &|device| device.features.as_mut().expect("known").retain(|it| it != missing));
             if feature != missing {
                 assert_eq!(without, Ok(()), "{feature} without {missing}");
                 continue;
@@ -97,7 +103,9 @@ fn what_a_device_lacks_is_refused_with_feature_place_and_device() {
     });
     assert!(slant.expect_err("too much").contains("the anisotropy is 16, and 8 is allowed (maxSamplerAnisotropy)"));
     let bias = refused(r#"image: "color", lod_bias: -16.5"#, &|_| {});
-    assert!(bias.expect_err("too far").contains("the mip level's bias is -16.5, and 16 is allowed (maxSamplerLodBias)"));
+    assert!(
+        bias.expect_err("too far").contains("the mip level's bias is -16.5, and 16 is allowed (maxSamplerLodBias)")
+    );
 }
 
 #[test]

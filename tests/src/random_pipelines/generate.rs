@@ -11,7 +11,7 @@ use super::rng::Rng;
 use super::texels;
 use super::valid::{self, Written, size};
 use framewright_graph::frame::{Blend, StencilState};
-use framewright_graph::vulkan::{Aspects, CompareOp, Shape, StencilOp};
+use framewright_graph::vulkan::{Aspects, ColorComponents, CompareOp, Shape, StencilOp};
 
 /// How often a pass of one kind is proposed before another kind has its turn.
 const PROPOSALS: u32 = 60;
@@ -258,7 +258,11 @@ impl Maker<'_> {
             } else {
                 Blend::Replace
             };
-            draw.color.push(Target { part, clear, blend });
+            // Where there is nothing yet, nothing can be left out.
+            let partial = (clear.is_some() || self.written.part(&self.pipeline, part)) && self.rng.one_in(4);
+            let channels = if partial { self.rng.below(16) as u8 } else { 15 };
+            let write_mask = ColorComponents::from_bits_truncate(channels);
+            draw.color.push(Target { part, clear, blend, write_mask });
         }
     }
 

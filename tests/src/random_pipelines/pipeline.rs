@@ -1,7 +1,7 @@
 //! A random pipeline. It says less than a pipeline file can, in a form that is easy to make, to evaluate and to shrink.
 
 use framewright_graph::frame::{Blend, StencilState};
-use framewright_graph::vulkan::{Aspects, CompareOp, Format, ResolveMode, Shape};
+use framewright_graph::vulkan::{Aspects, ColorComponents, CompareOp, Format, ResolveMode, Shape};
 
 /// Texels in x, y and z.
 pub type Extent = [u32; 3];
@@ -325,6 +325,8 @@ pub struct Target {
     pub clear: Option<u8>,
     /// How new meets old.
     pub blend: Blend,
+    /// The channels that it writes.
+    pub write_mask: ColorComponents,
 }
 
 /// A depth attachment.

@@ -3,7 +3,7 @@
 use super::pipeline::{Count, Draw, Geometry, Groups, Life, Pass, Pipeline, Work};
 use super::valid;
 use framewright_graph::frame::Blend;
-use framewright_graph::vulkan::Shape;
+use framewright_graph::vulkan::{ColorComponents, Shape};
 
 /// How often a smaller pipeline is tried.
 const MOST_TRIES: u32 = 3000;
@@ -91,6 +91,7 @@ fn simpler(pass: &Pass) -> Vec<Pass> {
                 });
             });
             (0..draw.color.len()).for_each(|at| add(&|draw| draw.color[at].blend = Blend::Replace));
+            (0..draw.color.len()).for_each(|at| add(&|draw| draw.color[at].write_mask = ColorComponents::RGBA));
             add(&|draw| draw.depth = None);
             add(&|draw| {
                 if let Some(depth) = &mut draw.depth {

@@ -5,7 +5,7 @@ use super::pipeline::{
 };
 use super::valid;
 use framewright_graph::frame::{Blend, StencilState};
-use framewright_graph::vulkan::Shape;
+use framewright_graph::vulkan::{ColorComponents, Shape, name_of};
 use std::fmt;
 
 impl fmt::Display for Pipeline {
@@ -154,6 +154,9 @@ impl fmt::Display for Pass {
                     target.clear.map_or(Ok(()), |clear| write!(f, " cleared to {clear}"))?;
                     if target.blend != Blend::Replace {
                         write!(f, " blend {:?}", target.blend)?;
+                    }
+                    if target.write_mask != ColorComponents::RGBA {
+                        write!(f, " writes {}", name_of(&target.write_mask))?;
                     }
                 }
                 if let Some(DepthTarget { part, clear, test, write, stencil }) = &draw.depth {

@@ -8,7 +8,7 @@ use super::{shader, texels, valid};
 use crate::parts;
 use framewright_graph::base::Span;
 use framewright_graph::frame::{self, BufferIndex, BufferRole, BufferUse, Face, Frame, ImageIndex, Lifetime, Resource};
-use framewright_graph::vulkan::{Accesses, ColorComponents, FillValue, Filter, Format, Layout, Stages, State, Subresources};
+use framewright_graph::vulkan::{Accesses, FillValue, Filter, Format, Layout, Stages, State, Subresources};
 
 /// The frame that `pipeline` says.
 #[must_use]
@@ -252,7 +252,7 @@ fn add_attachments(pipeline: &Pipeline, made: &mut frame::Pass, draw: &Draw) {
             made.buffers.push(fixed(buffer, BufferRole::Indirect));
         }
     }
-    for pipeline::Target { part, clear, blend } in &draw.color {
+    for pipeline::Target { part, clear, blend, write_mask } in &draw.color {
         let format = pipeline.images[part.image].format;
         made.color.push(frame::ColorTarget {
             image: ImageIndex(part.image as u32),
@@ -260,7 +260,7 @@ fn add_attachments(pipeline: &Pipeline, made: &mut frame::Pass, draw: &Draw) {
             span: Span::NONE,
             clear: clear.map(|value| [texels::float(format, texels::plain(format, value)).into(); 4]),
             blend: *blend,
-            write_mask: ColorComponents::RGBA,
+            write_mask: *write_mask,
         });
     }
     made.depth = draw.depth.map(|pipeline::DepthTarget { part, clear, test, write, stencil }| {

@@ -6,7 +6,7 @@ use super::pipeline::{
 };
 use super::{shader, texels, to_frame, valid};
 use framewright_graph::frame::{ParamValue, StencilState};
-use framewright_graph::vulkan::{Aspects, FillValue, Format, Layout, ResolveMode, Shape, Stages};
+use framewright_graph::vulkan::{Aspects, ColorComponents, FillValue, Format, Layout, ResolveMode, Shape, Stages};
 
 /// The pipeline file that says what `pipeline` says. Its shaders are those of [`shader::shader`].
 #[must_use]
@@ -192,7 +192,15 @@ fn draw_fields(pipeline: &Pipeline, draw: &Draw, shader: &str, fields: &mut Vec<
     let color = draw.color.iter().map(|target| {
         let clear = target.clear.map(|clear| value(target.part.image, clear));
         let clear = clear.map_or(String::new(), |v| format!(", clear: ({v:?}, {v:?}, {v:?}, {v:?})"));
-        format!("({}{clear}, blend: {:?})", part(target.part, None), target.blend)
+        let mask = match target.write_mask {
+            ColorComponents::RGBA => String::new(),
+            mask => {
+                let channels = [ColorComponents::R, ColorComponents::G, ColorComponents::B, ColorComponents::A];
+                let [r, g, b, a] = channels.map(|channel| mask.contains(channel));
+                format!(", write_mask: ({r}, {g}, {b}, {a})")
+            }
+        };
+        format!("({}{clear}, blend: {:?}{mask})", part(target.part, None), target.blend)
     });
     let color: Vec<String> = color.collect();
     if !color.is_empty() {

@@ -209,7 +209,9 @@ impl Written {
                         Blend::Replace => (*greatest).max(new),
                         Blend::Additive => *greatest + new * most_layers(draw),
                         // Alpha may be 1, which is 255 of 255.
-                        Blend::Alpha | Blend::Premultiplied => (*greatest + new * most_layers(draw)).max(255),
+                        Blend::Alpha | Blend::Premultiplied | Blend::Equation(_) => {
+                            (*greatest + new * most_layers(draw)).max(255)
+                        }
                     };
                 }
             }

@@ -233,6 +233,7 @@ fn a_pass_that_samples_its_own_target_reads_what_stood_there_before_it() {
         part: whole(image),
         clear: None,
         blend: framewright_graph::frame::Blend::Replace,
+        write_mask: Default::default(),
     };
     let draw = |image, reads| Draw {
         geometry: Geometry::FullScreen,

@@ -230,8 +230,8 @@ fn works(old: &Work, new: &Work) -> Difference {
 
 fn color_target(old: &ColorTarget, new: &ColorTarget) -> Difference {
     let ColorTarget { image, range, span, clear, blend, write_mask } = new;
-    let same = (old.image, old.range, old.span, old.blend, old.write_mask)
-        == (*image, *range, *span, *blend, *write_mask);
+    let same =
+        (old.image, old.range, old.span, old.blend, old.write_mask) == (*image, *range, *span, *blend, *write_mask);
     if !same || old.clear.is_some() != clear.is_some() {
         return Structure;
     }

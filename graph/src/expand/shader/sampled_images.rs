@@ -8,7 +8,9 @@ use crate::frame::check::targets::size_words;
 use crate::frame::{self, EyeForm, Pass, SampledImage};
 use crate::language::{self, Face};
 use crate::shader::{BindingKind, MOST_PARTS, PASS_SET, ShaderInterface, declared_name, element_of};
-use crate::vulkan::{AddressMode, Aspects, BorderColor, Component, Dimension, Filter, Format, ImageShape, Sampler, Shape, Subresources};
+use crate::vulkan::{
+    AddressMode, Aspects, BorderColor, Component, Dimension, Filter, Format, ImageShape, Sampler, Shape, Subresources,
+};
 
 /// A sampled image as its shader declares it.
 #[derive(Clone, Copy)]

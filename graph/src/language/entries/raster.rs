@@ -87,15 +87,11 @@ pub(crate) const BLEND: Form = Form::Either(&[
     Form::Expression("a blend"),
 ]);
 
-const FACTOR: Form = Form::Either(&[
-    Form::Choice("a blend factor", || names(BlendFactor::NAMED)),
-    Form::Expression("a blend factor"),
-]);
+const FACTOR: Form =
+    Form::Either(&[Form::Choice("a blend factor", || names(BlendFactor::NAMED)), Form::Expression("a blend factor")]);
 
-const OPERATION: Form = Form::Either(&[
-    Form::Choice("a blend operation", || names(BlendOp::NAMED)),
-    Form::Expression("a blend operation"),
-]);
+const OPERATION: Form =
+    Form::Either(&[Form::Choice("a blend operation", || names(BlendOp::NAMED)), Form::Expression("a blend operation")]);
 
 static BLENDS: [(&str, Blend); 4] = [
     ("Replace", Blend::Replace),
@@ -124,18 +120,19 @@ impl Context<'_> {
         let constants = optional(fields.blend_constants, |leaf| self.blend_constants(leaf));
         let words = (cull_mode?, front_face?, topology?);
         let parts = (words, depth_bias?, depth_clamp?, line_width?, constants?);
-        let state = combined(parts, |((cull_mode, front_face, topology), depth_bias, depth_clamp, width, constants)| {
-            let usual = RasterState::default();
-            RasterState {
-                cull_mode,
-                front_face: front_face.unwrap_or(usual.front_face),
-                topology: topology.unwrap_or(usual.topology),
-                depth_bias,
-                depth_clamp: depth_clamp.unwrap_or(usual.depth_clamp),
-                line_width: width.unwrap_or(usual.line_width),
-                blend_constants: constants.unwrap_or(usual.blend_constants),
-            }
-        });
+        let state =
+            combined(parts, |((cull_mode, front_face, topology), depth_bias, depth_clamp, width, constants)| {
+                let usual = RasterState::default();
+                RasterState {
+                    cull_mode,
+                    front_face: front_face.unwrap_or(usual.front_face),
+                    topology: topology.unwrap_or(usual.topology),
+                    depth_bias,
+                    depth_clamp: depth_clamp.unwrap_or(usual.depth_clamp),
+                    line_width: width.unwrap_or(usual.line_width),
+                    blend_constants: constants.unwrap_or(usual.blend_constants),
+                }
+            });
         Some(at(leaf, state))
     }
 

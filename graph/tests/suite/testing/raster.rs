@@ -70,7 +70,14 @@ pub(crate) struct Added<'a>(&'a mut Pass);
 
 impl Added<'_> {
     fn target(self, image: ImageIndex, clear: Option<[f64; 4]>, blend: Blend) -> Self {
-        self.0.color.push(ColorTarget { image, range: Subresources::WHOLE, span: Span::NONE, clear, blend, write_mask: Default::default() });
+        self.0.color.push(ColorTarget {
+            image,
+            range: Subresources::WHOLE,
+            span: Span::NONE,
+            clear,
+            blend,
+            write_mask: Default::default(),
+        });
         self
     }
 

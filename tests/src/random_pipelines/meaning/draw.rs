@@ -5,7 +5,7 @@ use crate::random_pipelines::hash::{Quarter, hash};
 use crate::random_pipelines::pipeline::{Count, DepthTarget, Draw, Geometry, Part, Plane, Target};
 use crate::random_pipelines::texels::{self, Words};
 use framewright_graph::frame::Blend;
-use framewright_graph::vulkan::{CompareOp, Format, StencilOp};
+use framewright_graph::vulkan::{ColorComponents, CompareOp, Format, StencilOp};
 
 /// One triangle: `None` covers all at depth 0.
 type Triangle = Option<(Quarter, u32)>;
@@ -142,7 +142,11 @@ impl Evaluator<'_> {
             Blend::Alpha | Blend::Premultiplied if opaque => new,
             Blend::Alpha => old,
             Blend::Premultiplied => added(),
+            Blend::Equation(_) => unreachable!("none is made at random"),
         };
+        let channels = [ColorComponents::R, ColorComponents::G, ColorComponents::B, ColorComponents::A];
+        let written = |component: usize| target.write_mask.contains(channels[component]);
+        let words = std::array::from_fn(|component| if written(component) { words[component] } else { old[component] });
         let texel = self.texel(words);
         *self.image(part.image).texel_mut(part.mip, place, sample) = texel;
     }

@@ -52,7 +52,8 @@ pub(super) fn accesses(pass: &Pass) -> Vec<Access> {
     match &pass.work {
         Work::Draw(draw) => {
             for target in &draw.color {
-                let keeps = target.clear.is_none() && !(covers(draw) && target.blend == Blend::Replace);
+                let keeps = target.clear.is_none()
+                    && !(covers(draw) && target.blend == Blend::Replace && target.write_mask.is_all());
                 add(target.part, How::Attachment, keeps, true);
             }
             if let Some(DepthTarget { part, clear, write, stencil, .. }) = draw.depth {

@@ -18,8 +18,9 @@ fn looked_up(device: &Device, lookups: &[(&str, &str, &str)]) -> Result<Vec<Vec<
         );
         outputs.push(format!("\"seen_{at}\""));
     }
-    let fills: Vec<String> =
-        (0..5).map(|mip| format!(r#"(name: "level_{mip}", fill: (to: (image: "levels", mip: {mip}), value: {mip})),"#)).collect();
+    let fills: Vec<String> = (0..5)
+        .map(|mip| format!(r#"(name: "level_{mip}", fill: (to: (image: "levels", mip: {mip}), value: {mip})),"#))
+        .collect();
     let text = format!(
         r#"Pipeline(version: 1,
             images: [(name: "numbers", format: R32_SFLOAT, size: Output), (name: "even", format: R8G8B8A8_UNORM, size: Output),
@@ -71,7 +72,8 @@ fn borders_have_their_color_beyond_the_edges() -> Result<(), Box<dyn Error>> {
                 outputs: ["seen"])"#
         );
         let outputs = outputs_of(device, &text)?;
-        let words: Vec<u32> = outputs[0].bytes.as_chunks::<4>().0.iter().map(|word| u32::from_ne_bytes(*word)).collect();
+        let words: Vec<u32> =
+            outputs[0].bytes.as_chunks::<4>().0.iter().map(|word| u32::from_ne_bytes(*word)).collect();
         assert!(words.as_chunks::<4>().0.iter().all(|texel| *texel == expected), "{border}: {:?}", &words[..4]);
     }
     Ok(())
@@ -129,7 +131,8 @@ fn levels_are_moved_and_bounded() -> Result<(), Box<dyn Error>> {
         ("filter: Nearest, mip_filter: Linear, min_lod: 0.5, max_lod: 0.5", 3.0, 0.5),
     ];
     let params: Vec<String> = cases.iter().map(|(_, level, _)| at(*level)).collect();
-    let lookups: Vec<_> = cases.iter().zip(&params).map(|((sampler, ..), params)| ("levels", *sampler, &**params)).collect();
+    let lookups: Vec<_> =
+        cases.iter().zip(&params).map(|((sampler, ..), params)| ("levels", *sampler, &**params)).collect();
     for ((sampler, level, expected), seen) in cases.iter().zip(looked_up(device, &lookups)?) {
         let off = seen.iter().step_by(4).map(|found| (found - expected).abs()).fold(0.0, f64::max);
         assert!(off < 0.02, "{sampler} at {level}: {} instead of {expected}", seen[0]);
