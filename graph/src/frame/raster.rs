@@ -48,19 +48,19 @@ impl Default for RasterState {
 }
 
 /// Something that has a usual value.
-trait Usual: PartialEq {
+trait UsualValue: PartialEq {
     const USUAL: Self;
 }
 
-impl Usual for FrontFace {
+impl UsualValue for FrontFace {
     const USUAL: FrontFace = FrontFace::CounterClockwise;
 }
 
-impl Usual for PrimitiveTopology {
+impl UsualValue for PrimitiveTopology {
     const USUAL: PrimitiveTopology = PrimitiveTopology::TriangleList;
 }
 
-fn is_usual<T: Usual>(value: &T) -> bool {
+fn is_usual<T: UsualValue>(value: &T) -> bool {
     *value == T::USUAL
 }
 

@@ -101,7 +101,11 @@ static BLENDS: [(&str, Blend); 4] = [
 ];
 
 /// A field that may be left out: `None` if it is there and wrong.
+<<<<<<< HEAD
 pub(super) type Optional<T> = Option<FieldValue<Option<T>>>;
+=======
+type OptionalField<T> = Option<FieldValue<Option<T>>>;
+>>>>>>> main
 
 impl Context<'_> {
     /// `raster`.
@@ -218,7 +222,7 @@ impl Context<'_> {
         leaf: Option<Leaf<'_>>,
         what: &'static str,
         choices: &'static [(&'static str, T)],
-    ) -> Optional<T> {
+    ) -> OptionalField<T> {
         optional(leaf, |leaf| self.word(leaf, what, choices).map(FieldValue::alone))
     }
 }
@@ -227,7 +231,7 @@ impl Context<'_> {
 pub(super) fn optional<'src, T: FieldContents>(
     leaf: Option<Leaf<'src>>,
     read: impl FnOnce(Leaf<'src>) -> Option<FieldValue<T>>,
-) -> Optional<T> {
+) -> OptionalField<T> {
     match leaf {
         Some(leaf) => Some(read(leaf)?.map(Some)),
         None => Some(FieldValue::Constant(None)),
