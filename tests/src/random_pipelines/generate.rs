@@ -258,9 +258,10 @@ impl Maker<'_> {
             } else {
                 Blend::Replace
             };
-            // Where there is nothing yet, nothing can be left out.
-            let partial = (clear.is_some() || self.written.part(&self.pipeline, part)) && self.rng.one_in(4);
-            let channels = if partial { self.rng.below(16) as u8 } else { 15 };
+            // Where there is nothing yet, nothing can be left out. All else of a seed's pipeline is as it is without masks.
+            let mut aside = self.rng.clone();
+            let there = clear.is_some() || self.written.part(&self.pipeline, part);
+            let channels = if there && aside.one_in(4) { aside.below(16) as u8 } else { 15 };
             let write_mask = ColorComponents::from_bits_truncate(channels);
             draw.color.push(Target { part, clear, blend, write_mask });
         }
