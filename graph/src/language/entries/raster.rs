@@ -101,11 +101,7 @@ static BLENDS: [(&str, Blend); 4] = [
 ];
 
 /// A field that may be left out: `None` if it is there and wrong.
-<<<<<<< HEAD
-pub(super) type Optional<T> = Option<FieldValue<Option<T>>>;
-=======
-type OptionalField<T> = Option<FieldValue<Option<T>>>;
->>>>>>> main
+pub(super) type OptionalField<T> = Option<FieldValue<Option<T>>>;
 
 impl Context<'_> {
     /// `raster`.
