@@ -273,7 +273,6 @@ pub struct SamplerState {
 }
 
 impl SamplerState {
-    /// Whether it may take texels beyond those that a shader's own bounds on places leave out.
     pub(crate) fn reaches_out(&self) -> bool {
         let moves = |lod: Option<Real>| lod.is_some_and(|lod| !lod.is_zero());
         self.anisotropy.is_some_and(|samples| samples > 1) || moves(self.lod_bias) || moves(self.min_lod)
