@@ -2,9 +2,9 @@
 
 use ash::vk;
 use framewright_graph::vulkan::{
-    Accesses, Aspects, BlendFactor, BlendOp, BufferUsage, ColorComponents, CompareOp, CullMode, FillValue, Filter,
-    Format, FrontFace, Layout, LoadOp, Numeric, PrimitiveTopology, ResolveMode, Stages, StencilOp, StoreOp,
-    Subresources, Usage,
+    Accesses, Aspects, BlendFactor, BlendOp, BorderColor, BufferUsage, ColorComponents, CompareOp, CullMode, FillValue,
+    Filter, Format, FrontFace, Layout, LoadOp, Numeric, PrimitiveTopology, ResolveMode, SamplerReductionMode, Stages,
+    StencilOp, StoreOp, Subresources, Usage,
 };
 
 pub(crate) fn format(format: Format) -> vk::Format {
@@ -251,5 +251,24 @@ pub(crate) fn blend_op(op: BlendOp) -> vk::BlendOp {
         BlendOp::ReverseSubtract => vk::BlendOp::REVERSE_SUBTRACT,
         BlendOp::Min => vk::BlendOp::MIN,
         BlendOp::Max => vk::BlendOp::MAX,
+    }
+}
+
+pub(crate) fn border_color(border: BorderColor) -> vk::BorderColor {
+    match border {
+        BorderColor::FloatTransparentBlack => vk::BorderColor::FLOAT_TRANSPARENT_BLACK,
+        BorderColor::IntTransparentBlack => vk::BorderColor::INT_TRANSPARENT_BLACK,
+        BorderColor::FloatOpaqueBlack => vk::BorderColor::FLOAT_OPAQUE_BLACK,
+        BorderColor::IntOpaqueBlack => vk::BorderColor::INT_OPAQUE_BLACK,
+        BorderColor::FloatOpaqueWhite => vk::BorderColor::FLOAT_OPAQUE_WHITE,
+        BorderColor::IntOpaqueWhite => vk::BorderColor::INT_OPAQUE_WHITE,
+    }
+}
+
+pub(crate) fn sampler_reduction(mode: SamplerReductionMode) -> vk::SamplerReductionMode {
+    match mode {
+        SamplerReductionMode::WeightedAverage => vk::SamplerReductionMode::WEIGHTED_AVERAGE,
+        SamplerReductionMode::Min => vk::SamplerReductionMode::MIN,
+        SamplerReductionMode::Max => vk::SamplerReductionMode::MAX,
     }
 }

@@ -9,13 +9,13 @@ use crate::shaders::Spirv;
 use ash::vk;
 use framewright_graph::frame::{Blend, RasterState, StencilState};
 use framewright_graph::plan::DepthState;
-use framewright_graph::vulkan::{AddressMode, ColorComponents, CompareOp, Filter, Rotation};
+use framewright_graph::vulkan::{AddressMode, ColorComponents, Filter, Rotation, Sampler};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 /// The caches of a device.
 #[derive(Default)]
 pub(crate) struct Caches {
-    pub(crate) samplers: ObjectCache<(SamplerDescriptor, Option<CompareOp>), vk::Sampler>,
+    pub(crate) samplers: ObjectCache<(SamplerDescriptor, Sampler), vk::Sampler>,
     pub(crate) set_layouts: ObjectCache<Vec<LayoutBinding>, vk::DescriptorSetLayout>,
     pub(crate) pipeline_layouts: ObjectCache<Vec<vk::DescriptorSetLayout>, vk::PipelineLayout>,
     pub(crate) pipelines: ObjectCache<PipelineDescriptor, vk::Pipeline>,

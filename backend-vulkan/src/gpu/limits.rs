@@ -52,5 +52,7 @@ fn limits_of(limits: &vk::PhysicalDeviceLimits, buffer_bytes: u64) -> Limits {
         set_input_attachments: limits.max_descriptor_set_input_attachments.into(),
         fragment_resources: limits.max_fragment_combined_output_resources.into(),
         line_width: whole(limits.line_width_range[1]),
+        anisotropy: whole(limits.max_sampler_anisotropy),
+        lod_bias: whole(limits.max_sampler_lod_bias),
     }
 }

@@ -3,7 +3,7 @@
 use super::features::OptionalFeature;
 
 /// Features that are used where a device has them, and that pipelines can need by their shaders and draws: profiles tell of these.
-pub(super) const NEEDED_FEATURES: [OptionalFeature; 57] = [
+pub(super) const NEEDED_FEATURES: [OptionalFeature; 60] = [
     ("imageCubeArray", "shaders that see several cubes at once", |it| &mut it.core.image_cube_array),
     (
         "shaderSampledImageArrayDynamicIndexing",
@@ -115,6 +115,11 @@ pub(super) const NEEDED_FEATURES: [OptionalFeature; 57] = [
     ("dualSrcBlend", "blends with a second colour of the shader", |it| &mut it.core.dual_src_blend),
     ("wideLines", "lines that are wider than a texel", |it| &mut it.core.wide_lines),
     ("largePoints", "points of the size that a shader says", |it| &mut it.core.large_points),
+    ("samplerAnisotropy", "samplers of what is seen at a slant", |it| &mut it.core.sampler_anisotropy),
+    ("samplerMirrorClampToEdge", "samplers of images that are mirrored once", |it| {
+        &mut it.v1_2.sampler_mirror_clamp_to_edge
+    }),
+    ("samplerFilterMinmax", "samplers of the least and greatest of texels", |it| &mut it.v1_2.sampler_filter_minmax),
     ("scalarBlockLayout", "blocks in scalar layout", |it| &mut it.v1_2.scalar_block_layout),
     ("uniformBufferStandardLayout", "uniform blocks in the layout of storage blocks, std430", |it| {
         &mut it.v1_2.uniform_buffer_standard_layout

@@ -81,6 +81,27 @@ fn filtered(gpu: &Gpu, plan: &Plan, pass: &Pass) -> Result<(), Error> {
     for access in linear {
         lacks(gpu, plan, access.image, vk::FormatFeatureFlags::SAMPLED_IMAGE_FILTER_LINEAR, "filter")?;
     }
+    sampled(gpu, plan, pass)
+}
+
+/// Whether the device has the samplers of a pass.
+fn sampled(gpu: &Gpu, plan: &Plan, pass: &Pass) -> Result<(), Error> {
+    for access in &pass.accesses {
+        let Some(sampler) = access.binding.as_ref().and_then(|it| it.kind.sampler()) else { continue };
+        if *sampler == Sampler::new(sampler.filter) {
+            continue;
+        }
+        let name = &plan.image(access.image).name;
+        if let Some((feature, what)) = sampler.features().find(|(feature, _)| !gpu.features.has(feature)) {
+            return bad(format!("`{name}`: {what} needs the feature {feature}, which {} lacks", gpu.summary.name));
+        }
+        if let Some(what) = gpu.shader_limits().exceeded_by(sampler) {
+            return bad(format!("`{name}`: {what}"));
+        }
+        if sampler.reduces() {
+            lacks(gpu, plan, access.image, vk::FormatFeatureFlags::SAMPLED_IMAGE_FILTER_MINMAX, "find the least of")?;
+        }
+    }
     Ok(())
 }
 

@@ -152,13 +152,11 @@ impl PassSet {
                         buffers.push(buffer.clone());
                         DescriptorTarget::Buffer(buffer.raw)
                     }
-                    BoundResource::Sampler(sampler) => {
-                        DescriptorTarget::Sampler(frame.gpu.sampler((*sampler).into(), sampler.compare)?)
-                    }
+                    BoundResource::Sampler(sampler) => DescriptorTarget::Sampler(frame.gpu.sampler(*sampler)?),
                     BoundResource::Image { image, range, shape, layout, sampler } => {
                         let image = frame.image(*image);
                         images.push(image.clone());
-                        let sampler = sampler.map(|it| frame.gpu.sampler(it.into(), it.compare)).transpose()?;
+                        let sampler = sampler.map(|it| frame.gpu.sampler(it)).transpose()?;
                         DescriptorTarget::Image(image.view(*range, *shape)?, *layout, sampler.unwrap_or_default())
                     }
                 });

@@ -111,6 +111,7 @@ fn support(instance: &ash::Instance, physical: vk::PhysicalDevice, format: Forma
         format,
         usage,
         linear_filter: features.contains(Feature::SAMPLED_IMAGE_FILTER_LINEAR),
+        minmax_filter: features.contains(Feature::SAMPLED_IMAGE_FILTER_MINMAX),
         blend: features.contains(Feature::COLOR_ATTACHMENT_BLEND),
         samples,
     })

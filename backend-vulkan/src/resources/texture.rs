@@ -150,7 +150,7 @@ impl Device {
             record_upload(&self.gpu, commands, &image, (&staging, 1), Layout::ShaderReadOnlyOptimal);
         })?;
         let view = image.view(Subresources::all(format, levels, 1), ViewShape::Flat)?;
-        Ok(Texture(Arc::new(RawTexture { image, view, sampler: self.gpu.sampler(*sampler, None)? })))
+        Ok(Texture(Arc::new(RawTexture { image, view, sampler: self.gpu.texture_sampler(*sampler)? })))
     }
 
     /// The texels of `texture`, which they share, sampled another way.
@@ -159,6 +159,6 @@ impl Device {
     /// If the device has no room for another sampler.
     pub fn sampled(&self, texture: &Texture, sampler: &SamplerDescriptor) -> Result<Texture, Error> {
         let (image, view) = (texture.0.image.clone(), texture.0.view);
-        Ok(Texture(Arc::new(RawTexture { image, view, sampler: self.gpu.sampler(*sampler, None)? })))
+        Ok(Texture(Arc::new(RawTexture { image, view, sampler: self.gpu.texture_sampler(*sampler)? })))
     }
 }

@@ -1,5 +1,6 @@
 //! How much a device's shaders and buffers may use.
 
+use crate::vulkan::Sampler;
 use serde::{Deserialize, Serialize};
 
 /// Each limit: its name, the field with its value, Vulkan's name, and the least that Vulkan demands of every device.
@@ -101,6 +102,25 @@ limits! {
     FragmentResources, fragment_resources, "maxFragmentCombinedOutputResources", 4;
     /// Texels that a line is wide, as far as they are whole.
     LineWidth, line_width, "lineWidthRange[1]", 1;
+    /// Samples of a lookup along the direction of the slant.
+    Anisotropy, anisotropy, "maxSamplerAnisotropy", 1;
+    /// How far mip levels are moved, as far as that is whole.
+    LodBias, lod_bias, "maxSamplerLodBias", 2;
+}
+
+impl Limits {
+    /// What of a sampler is more than these allow, in words.
+    #[must_use]
+    #[allow(clippy::cast_precision_loss, reason = "such limits are small")]
+    pub fn exceeded_by(&self, sampler: &Sampler) -> Option<String> {
+        let bias = f32::from(sampler.lod_bias);
+        let wanted = [
+            (Limit::Anisotropy, sampler.anisotropy as f32, "the anisotropy", sampler.anisotropy.to_string()),
+            (Limit::LodBias, bias.abs(), "the mip level's bias", bias.to_string()),
+        ];
+        let (limit, _, what, value) = wanted.into_iter().find(|(limit, value, ..)| *value > self.of(*limit) as f32)?;
+        Some(format!("{what} is {value}, and {} is allowed ({})", self.of(limit), limit.name()))
+    }
 }
 
 impl Default for Limits {

@@ -193,6 +193,9 @@ pub struct FormatSupport {
     pub linear_filter: bool,
     /// Whether blending works.
     pub blend: bool,
+    /// Whether samplers find the least and greatest of its texels (`samplerFilterMinmax`).
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub minmax_filter: bool,
     /// Sample counts as an attachment, rising; 1 is among them if it can be an attachment at all.
     pub samples: Vec<u32>,
 }

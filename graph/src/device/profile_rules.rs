@@ -168,6 +168,9 @@ impl Check for FormatSupport {
         demand(usage.contains(Usage::SAMPLED) || !self.linear_filter, || {
             format!("{format} can't be filtered without being SAMPLED")
         })?;
+        demand(usage.contains(Usage::SAMPLED) || !self.minmax_filter, || {
+            format!("{format} has no least and greatest texels without being SAMPLED")
+        })?;
         demand(!self.linear_filter || !format.is_integer(), || {
             format!("{format} holds integers: it can't be filtered")
         })?;

@@ -41,7 +41,7 @@ pub use output::Output;
 pub use param::ParamValue;
 pub(crate) use part::TargetShape;
 pub use pass::Pass;
-pub use raster::{BlendEquation, DepthBias, RasterState, Real};
+pub use raster::{BlendEquation, DepthBias, RasterState};
 pub(crate) use resource::allocated_extent;
 pub use resource::{Buffer, ChosenFormat, Image, Lifetime, Resolve, ResolveWay, SAMPLE_COUNTS};
 pub use texture::{

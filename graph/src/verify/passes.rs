@@ -10,8 +10,8 @@ use crate::plan::names::ShownText;
 use crate::plan::{Access, Attachment, BindingKind, BufferAccess, Image, Pass, RenderScope};
 use crate::shader::MOST_PARTS;
 use crate::vulkan::{
-    Accesses, AddressMode, Aspects, CompareOp, Component, Dimension, ImageShape, Layout, PrimitiveTopology, Sampler,
-    Shape, Stages, StencilOp, name_of,
+    Accesses, Aspects, CompareOp, Component, Dimension, Format, ImageShape, Layout, PrimitiveTopology, Sampler, Shape,
+    Stages, StencilOp, name_of,
 };
 
 const STORAGE: Accesses = Accesses::SHADER_STORAGE_READ.union(Accesses::SHADER_STORAGE_WRITE);
@@ -267,8 +267,12 @@ impl<'p> Check<'_, 'p> {
         let sampler = binding.kind.sampler();
         let linear = sampler.is_some_and(Sampler::is_linear);
         let Image { allocated, format, .. } = self.plan.image(access.image);
-        let beyond = sampler.is_some_and(|sampler| sampler.address != AddressMode::ClampToEdge);
+        let beyond = sampler.is_some_and(Sampler::reaches_out);
         self.demand(allocated.is_none() || !beyond, access.image, "is used in part and looked up beyond its edges");
+        let of_stencil = access.range.aspects == Aspects::STENCIL;
+        let seen = if of_stencil { Format::R8_UINT } else { *format };
+        let unfit = sampler.is_some_and(|sampler| sampler.mistake(seen).is_some());
+        self.demand(!unfit, access.image, "is sampled as nothing can be");
         let integer = format.is_integer();
         self.demand(!(linear && integer), access.image, "has integers, which can't be filtered");
         let compares = sampler.is_some_and(|sampler| sampler.compare.is_some());

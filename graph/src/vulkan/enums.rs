@@ -403,54 +403,6 @@ pub enum Filter {
     Linear,
 }
 
-/// The texels of a sampled image beyond its edges (`VkSamplerAddressMode`), on every axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize)]
-#[serde(rename_all = "SCREAMING_SNAKE_CASE")]
-pub enum AddressMode {
-    /// The texels at the edge.
-    #[default]
-    ClampToEdge,
-    /// The image again.
-    Repeat,
-    /// The image mirrored.
-    MirroredRepeat,
-}
-
-/// How a sampled image is looked up (`VkSamplerCreateInfo`).
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Sampler {
-    /// Filter between texels, enlarged and reduced.
-    pub filter: Filter,
-    /// Filter between mip levels.
-    pub mips: Filter,
-    /// The texels beyond the edges.
-    pub address: AddressMode,
-    /// How a depth that the shader gives is compared with those that are sampled; `None`: the shader is given those.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub compare: Option<CompareOp>,
-}
-
-impl Sampler {
-    /// A sampler that ends at the image's edges and takes the nearest mip level.
-    #[must_use]
-    pub const fn new(filter: Filter) -> Sampler {
-        Sampler { filter, mips: Filter::Nearest, address: AddressMode::ClampToEdge, compare: None }
-    }
-
-    /// The same, for a shader that compares depths, or doesn't.
-    #[must_use]
-    pub const fn comparing(self, compares: bool) -> Sampler {
-        Sampler { compare: if compares { self.compare } else { None }, ..self }
-    }
-
-    /// Whether it takes means of texels, which not every format allows.
-    #[must_use]
-    pub const fn is_linear(&self) -> bool {
-        matches!(self.filter, Filter::Linear) || matches!(self.mips, Filter::Linear)
-    }
-}
-
 /// Depth comparison (`VkCompareOp`). Depth is reversed: nearer is greater.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "SCREAMING_SNAKE_CASE")]

@@ -11,15 +11,17 @@ mod image_shape;
 pub(crate) mod layout;
 mod name;
 mod raster;
+mod real;
 mod rotation;
+mod sampler;
 mod stage;
 pub(crate) mod states;
 
 pub use access::AccessKind;
 pub use encoding::Encoding;
 pub use enums::{
-    Accesses, AddressMode, Aspects, BufferUsage, CompareOp, Filter, Layout, LoadOp, ResolveMode, Sampler, Shape,
-    Sharing, Stages, State, StencilOp, StoreOp, Subresources, Usage,
+    Accesses, Aspects, BufferUsage, CompareOp, Filter, Layout, LoadOp, ResolveMode, Shape, Sharing, Stages, State,
+    StencilOp, StoreOp, Subresources, Usage,
 };
 pub use fill_value::FillValue;
 pub(crate) use foreign_formats::vulkans_name;
@@ -29,4 +31,6 @@ pub use image_shape::{Component, Dimension, ImageShape};
 pub(crate) use name::in_plan;
 pub use name::name_of;
 pub use raster::{BlendFactor, BlendOp, ColorComponents, CullMode, FrontFace, PrimitiveTopology};
+pub use real::Real;
 pub use rotation::Rotation;
+pub use sampler::{AddressMode, BorderColor, Sampler, SamplerReductionMode};

@@ -66,6 +66,8 @@ macro_rules! words {
     };
 }
 
+pub(super) use words;
+
 /// The faces of triangles that are left out (`VkCullModeFlagBits`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "SCREAMING_SNAKE_CASE")]

@@ -32,6 +32,7 @@ mod random_frames;
 mod raster_states;
 mod reference;
 mod rotation;
+mod sampler_states;
 mod saved_profiles;
 mod schedule;
 mod shipped_devices;

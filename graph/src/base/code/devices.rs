@@ -71,4 +71,10 @@ room! {
     /// A bound of the depth bias, depth that is clamped, wide lines, points and blends with a second colour are features that not
     /// every device has. The message names the feature or the limit. A `when` that asks `device` lets a pass run only where it can.
     RASTER_NEEDS = 1113,
+
+    /// The device lacks what a sampler needs.
+    ///
+    /// The least or greatest of texels, anisotropy, images that are mirrored once, and how far mip levels may be moved are features
+    /// and limits that not every device has. The message names it.
+    SAMPLER_NEEDS = 1114,
 }

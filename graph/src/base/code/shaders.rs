@@ -168,4 +168,10 @@ room! {
     /// `constants: {"TILE": 8}` gives values to the constants of a shader: GLSL's `layout(constant_id = 0)`, HLSL's
     /// `[[vk::constant_id(0)]]`. Truth values and numbers of 32 bits have values. The help names those that there are.
     SHADER_CONSTANT = 830,
+
+    /// An image can't be sampled so.
+    ///
+    /// A border goes with `address: Border`, and is one of integers where the image holds integers. Anisotropy goes with
+    /// `filter: Linear`, and the least mip level lies below the greatest. What is compared has no reduction.
+    SAMPLER_UNFIT = 831,
 }

@@ -4,7 +4,7 @@ use crate::base::{Code, Diagnostic, Span};
 use crate::device::{Abilities, Limit, NeedKind, Profile};
 use crate::frame::{Draw, Frame, Lifetime, Pass};
 use crate::plan::{Note, NoteKind};
-use crate::vulkan::State;
+use crate::vulkan::{Sampler, State};
 
 /// Vulkan's name of the feature that draws with counts in a buffer need, if their first instance isn't 0.
 const FIRST_INSTANCE: &str = "drawIndirectFirstInstance";
@@ -31,7 +31,10 @@ pub(crate) fn check_needs(frame: &Frame, live: &[u32], device: &Profile) -> Resu
             notes.push(note(NoteKind::FirstInstance, frame, pass, text));
         }
     }
-    live.iter().for_each(|pass| raster(&frame.passes[*pass as usize], device, &mut errors));
+    for pass in live.iter().map(|pass| &frame.passes[*pass as usize]) {
+        raster(pass, device, &mut errors);
+        samplers(frame, pass, device, &mut errors);
+    }
     buffers(frame, live, device, &mut errors);
     states(frame, device, &mut errors);
     if errors.is_empty() { Ok(notes) } else { Err(errors) }
@@ -76,6 +79,27 @@ fn raster(pass: &Pass, device: &Profile, errors: &mut Vec<Diagnostic>) {
     }
     for target in &pass.color {
         target.blend.feature().and_then(missing).into_iter().for_each(|what| report(target.span, what));
+    }
+}
+
+/// Reports samplers that the device doesn't have.
+fn samplers(frame: &Frame, pass: &Pass, device: &Profile, errors: &mut Vec<Diagnostic>) {
+    for sampled in &pass.sampled {
+        let (sampler, image) = (&sampled.sampler, &frame.images[sampled.image.0 as usize]);
+        if *sampler == Sampler::new(sampler.filter) {
+            continue;
+        }
+        let missing = sampler.features().find(|(feature, _)| !device.has_feature(feature));
+        let reduced = !sampler.reduces() || device.format(image.format).is_none_or(|support| support.minmax_filter);
+        let beyond = device.limits.as_ref().and_then(|limits| limits.exceeded_by(sampler));
+        let what = match (missing, beyond) {
+            (Some((feature, what)), _) => format!("{what} needs the feature {feature}"),
+            (None, _) if !reduced => format!("it finds no least and greatest of {}", image.format),
+            (None, Some(what)) => what,
+            (None, None) => continue,
+        };
+        let message = format!("pass `{}` can't sample `{}` on `{}`: {what}", pass.name, image.name, device.name);
+        errors.push(Diagnostic::new(Code::SAMPLER_NEEDS, sampled.span, message));
     }
 }
 

@@ -40,7 +40,8 @@ impl SeparateImages {
             }
             let wraps = |sample: &&Sample| {
                 let address = sample.address.map(|address| address.value);
-                form == EyeForm::Halves && address.is_some_and(|address| address != AddressMode::ClampToEdge)
+                let beyond = address.is_some_and(|address| address != AddressMode::ClampToEdge);
+                form == EyeForm::Halves && (beyond || sample.state.reaches_out())
             };
             for sample in pass.sample.iter().filter(wraps).filter(|sample| own_part(&&sample.part)) {
                 apart.part(sample.part.image.index, || format!("`{name}` reads beyond its edges"));

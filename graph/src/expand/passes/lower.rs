@@ -39,7 +39,7 @@ pub(in crate::expand) fn lower(
         let before = errors.len();
         let mut misspelt = sampled_images::check(resources, pass, &lowered, interface, errors);
         if errors.len() == before {
-            samplers::check(pass, &lowered, interface, errors);
+            samplers::check(resources, pass, &lowered, interface, errors);
             variant::check_single_sampled(pass, &lowered, &variant, shaders, errors);
             local::check(resources, pass, &lowered, (interface, &variant), shaders, errors);
         }

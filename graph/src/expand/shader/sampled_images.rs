@@ -8,7 +8,9 @@ use crate::frame::check::targets::size_words;
 use crate::frame::{self, EyeForm, Pass, SampledImage};
 use crate::language::{self, Face};
 use crate::shader::{BindingKind, MOST_PARTS, PASS_SET, ShaderInterface, declared_name, element_of};
-use crate::vulkan::{AddressMode, Aspects, Component, Dimension, Filter, ImageShape, Sampler, Shape, Subresources};
+use crate::vulkan::{
+    AddressMode, Aspects, BorderColor, Component, Dimension, Filter, Format, ImageShape, Sampler, Shape, Subresources,
+};
 
 /// A sampled image as its shader declares it.
 #[derive(Clone, Copy)]
@@ -88,23 +90,32 @@ pub(in crate::expand) fn lower(
         face,
         texture,
         own_pixel: sample.own_pixel.is_some_and(|own| own.value && element_of(name).is_none()),
-        sampler: sampler(sample, texture, default),
+        sampler: sampler(sample, texture, default, image.format),
         stages: storage::stages(interface, name, raster),
     })
 }
 
 /// The sampler that the file chooses, else one that ends at the image's edges and takes the nearest mip level.
-fn sampler(sample: &language::Sample, texture: Option<ImageShape>, filter: Filter) -> Sampler {
+fn sampler(sample: &language::Sample, texture: Option<ImageShape>, filter: Filter, format: Format) -> Sampler {
     // Where a shader that adapts reads single samples there is nothing between them.
     if texture.is_some_and(|texture| texture.multisampled) {
         return Sampler::new(Filter::Nearest);
     }
-    let Sampler { filter, mips, address, .. } = Sampler::new(sample.filter.map_or(filter, |filter| filter.value));
+    let usual = Sampler::new(sample.filter.map_or(filter, |filter| filter.value));
+    let address = sample.address.map_or(usual.address, |address| address.value);
+    let borders = address == AddressMode::ClampToBorder;
+    let language::SamplerState { border, reduction, anisotropy, lod_bias, min_lod, max_lod } = sample.state;
     Sampler {
-        filter,
-        mips: sample.mip_filter.map_or(mips, |mips| mips.value),
-        address: sample.address.map_or(address, |address| address.value),
+        filter: usual.filter,
+        mips: sample.mip_filter.map_or(usual.mips, |mips| mips.value),
+        address,
         compare: sample.compare.map(|compare| compare.value),
+        border: border.or_else(|| borders.then(|| BorderColor::transparent(format))),
+        reduction: reduction.unwrap_or_default(),
+        anisotropy: anisotropy.unwrap_or(usual.anisotropy),
+        lod_bias: lod_bias.unwrap_or(usual.lod_bias),
+        min_lod: min_lod.unwrap_or(usual.min_lod),
+        max_lod,
     }
 }
 
@@ -372,6 +383,12 @@ impl Check<'_> {
             let wrong =
                 Diagnostic::new(Code::PART_NOT_ASKED, address.span, message).label(declared, "its size may change");
             errors.push(wrong.help("write `Clamp`: it ends at the part's edges"));
+        }
+        if self.sample.state.reaches_out() {
+            let message = format!("`{}` is used in part, and such a sampler looks beyond that", image.name);
+            let wrong = Diagnostic::new(Code::PART_NOT_ASKED, self.sample.part.image.span, message);
+            let wrong = wrong.label(declared, "its size may change");
+            errors.push(wrong.help("leave out `anisotropy`, `lod_bias` and `min_lod`"));
         }
     }
 

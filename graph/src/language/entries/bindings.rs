@@ -3,15 +3,16 @@
 use super::condition::{self, Condition};
 use super::firsts::Firsts;
 use super::parts::{self, AnyPart, PartSelection};
+use super::raster;
 use super::targets;
 use super::values::{self, optional};
 use crate::base::{Code, Diagnostic};
 use crate::fields;
-use crate::language::model::{Face, LeftOutSample, Param, Sample, Storage, StorageAccess, Uniform};
+use crate::language::model::{Face, LeftOutSample, Param, Sample, SamplerState, Storage, StorageAccess, Uniform};
 use crate::language::scope::{Context, FieldContents, FieldValue, FieldValueTuple, combined};
 use crate::ron::{FieldTable, Form, Leaf, Name, Reader, Shape, Spanned, Word, WordContents, Words, names};
 use crate::shader::element_name;
-use crate::vulkan::{AddressMode, Filter};
+use crate::vulkan::{AddressMode, BorderColor, Filter, SamplerReductionMode};
 use std::sync::Arc;
 
 fields! {
@@ -38,9 +39,22 @@ fields! {
         filter: Option<Leaf<'src>> => SAMPLER_FILTER,
         /// Between mip levels: the nearest, or a weighted mean of two; `Nearest` if left out.
         mip_filter: Option<Leaf<'src>> => SAMPLER_FILTER,
-        /// Beyond the edges: the texels at the edge, the image again, or the image mirrored, again and again; `Clamp` if left
-        /// out.
+        /// Beyond the edges: the texels at the edge, the image again, the image mirrored, again and again, a border, or the image
+        /// mirrored once and then the texels at its edge; `Clamp` if left out.
         address: Option<Leaf<'src>> => ADDRESS,
+        /// The colour beyond the edges, with `address: Border`; zeros if left out.
+        border: Option<Leaf<'src>> => BORDER,
+        /// What a linear filter makes of the texels around: their weighted mean, or the least or greatest of each channel;
+        /// `WeightedAverage` if left out.
+        reduction: Option<Leaf<'src>> => REDUCTION,
+        /// Up to how many samples are taken along the direction in which the image is seen at a slant; 1 if left out.
+        anisotropy: Option<Leaf<'src>> => Form::Whole(1, 16),
+        /// What is added to the mip level; 0 if left out.
+        lod_bias: Option<Leaf<'src>> => Form::Number,
+        /// The least mip level, from `mip` on; 0 if left out.
+        min_lod: Option<Leaf<'src>> => Form::Number,
+        /// The greatest mip level, from `mip` on; the last if left out.
+        max_lod: Option<Leaf<'src>> => Form::Number,
         /// How the shader's depth is compared with that of the image, which it declares as `sampler2DShadow`: 1 where it passes, and
         /// with `filter: Linear` the share of four texels where it does.
         compare: Option<Leaf<'src>> => COMPARE,
@@ -100,6 +114,16 @@ const SAMPLER_FILTER: Form = Form::Either(&[FILTER, Form::Expression("a filter")
 const ADDRESS: Form =
     Form::Either(&[Form::Choice("an address mode", || names(&ADDRESSES)), Form::Expression("an address mode")]);
 
+/// The border of a sampler.
+const BORDER: Form =
+    Form::Either(&[Form::Choice("a border", || names(BorderColor::NAMED)), Form::Expression("a border")]);
+
+/// The reduction of a sampler.
+const REDUCTION: Form = Form::Either(&[
+    Form::Choice("a reduction", || names(SamplerReductionMode::NAMED)),
+    Form::Expression("a reduction"),
+]);
+
 /// The comparison of a sampler.
 const COMPARE: Form = Form::Either(&[targets::TEST, Form::Expression("a comparison")]);
 
@@ -150,8 +174,13 @@ fields! {
 /// Filters, by name.
 pub(crate) static FILTERS: [(&str, Filter); 2] = [("Nearest", Filter::Nearest), ("Linear", Filter::Linear)];
 
-static ADDRESSES: [(&str, AddressMode); 3] =
-    [("Clamp", AddressMode::ClampToEdge), ("Repeat", AddressMode::Repeat), ("Mirror", AddressMode::MirroredRepeat)];
+static ADDRESSES: [(&str, AddressMode); 5] = [
+    ("Clamp", AddressMode::ClampToEdge),
+    ("Repeat", AddressMode::Repeat),
+    ("Mirror", AddressMode::MirroredRepeat),
+    ("Border", AddressMode::ClampToBorder),
+    ("MirrorOnce", AddressMode::MirrorClampToEdge),
+];
 
 const ACCESSES: [(&str, StorageAccess); 3] =
     [("Read", StorageAccess::Read), ("Write", StorageAccess::Write), ("ReadWrite", StorageAccess::ReadWrite)];
@@ -206,18 +235,41 @@ impl Context<'_> {
         let mip_filter = self.sampler_word(mip_filter, "a filter", &FILTERS);
         let address = self.sampler_word(address, "an address mode", &ADDRESSES);
         let compare = self.sampler_word(compare, "a comparison", &targets::TESTS);
+        let state = self.sampler_state(&fields);
         let own_pixel = optional(own_pixel, |leaf| self.truth(leaf).map(FieldValue::spanned));
         let (part, face) = image?;
-        let (binding, parts) = (binding?, (part?, filter?, mip_filter?, address?, compare?, own_pixel?));
-        Some(combined(parts, move |(part, filter, mip_filter, address, compare, own_pixel)| Sample {
+        let words = (filter?, mip_filter?, address?, compare?);
+        let (binding, parts) = (binding?, (part?, words, state?, own_pixel?));
+        Some(combined(parts, move |(part, (filter, mip_filter, address, compare), state, own_pixel)| Sample {
             binding: binding.clone(),
             part,
             face,
             filter,
             mip_filter,
             address,
+            state,
             compare,
             own_pixel,
+        }))
+    }
+
+    /// The rest of a sampler.
+    fn sampler_state(&mut self, fields: &SampleFields<'_>) -> Option<FieldValue<SamplerState>> {
+        let SampleFields { border, reduction, anisotropy, lod_bias, min_lod, max_lod, .. } = *fields;
+        let border = self.optional_word(border, "a border", BorderColor::NAMED);
+        let reduction = self.optional_word(reduction, "a reduction", SamplerReductionMode::NAMED);
+        let anisotropy = raster::optional(anisotropy, |leaf| self.whole(leaf, "number of samples", 1..=16));
+        let lod_bias = raster::optional(lod_bias, |leaf| self.real(leaf, "a mip level"));
+        let min_lod = raster::optional(min_lod, |leaf| self.real(leaf, "a mip level"));
+        let max_lod = raster::optional(max_lod, |leaf| self.real(leaf, "a mip level"));
+        let parts = (border?, reduction?, anisotropy?, lod_bias?, min_lod?, max_lod?);
+        Some(combined(parts, |(border, reduction, anisotropy, lod_bias, min_lod, max_lod)| SamplerState {
+            border,
+            reduction,
+            anisotropy,
+            lod_bias,
+            min_lod,
+            max_lod,
         }))
     }
 
@@ -383,6 +435,12 @@ impl<'src> SampleFields<'src> {
             filter: None,
             mip_filter: None,
             address: None,
+            border: None,
+            reduction: None,
+            anisotropy: None,
+            lod_bias: None,
+            min_lod: None,
+            max_lod: None,
             compare: None,
             own_pixel: None,
             when: None,

@@ -3,11 +3,11 @@
 use super::values::at;
 use crate::base::{Code, Diagnostic};
 use crate::fields;
-use crate::frame::{Blend, BlendEquation, DepthBias, RasterState, Real};
+use crate::frame::{Blend, BlendEquation, DepthBias, RasterState};
 use crate::language::model::Decided;
 use crate::language::scope::{Context, FieldContents, FieldValue, all, combined};
 use crate::ron::{FieldTable, Form, Leaf, Shape, Spanned, names};
-use crate::vulkan::{BlendFactor, BlendOp, ColorComponents, CullMode, FrontFace, PrimitiveTopology};
+use crate::vulkan::{BlendFactor, BlendOp, ColorComponents, CullMode, FrontFace, PrimitiveTopology, Real};
 
 fields! {
     /// A raster state: how triangles, lines and points become fragments.
@@ -101,7 +101,7 @@ static BLENDS: [(&str, Blend); 4] = [
 ];
 
 /// A field that may be left out: `None` if it is there and wrong.
-type OptionalField<T> = Option<FieldValue<Option<T>>>;
+pub(super) type OptionalField<T> = Option<FieldValue<Option<T>>>;
 
 impl Context<'_> {
     /// `raster`.
@@ -163,7 +163,7 @@ impl Context<'_> {
     }
 
     /// A finite number of 32 bits.
-    fn real(&mut self, leaf: Leaf<'_>, what: &'static str) -> Option<FieldValue<Real>> {
+    pub(super) fn real(&mut self, leaf: Leaf<'_>, what: &'static str) -> Option<FieldValue<Real>> {
         self.number_because(leaf, what)?.checked(self.reader, move |number, _| {
             real(number.value).ok_or_else(|| refused(&number, what, "32-bit floating point reaches about 3.4e38"))
         })
@@ -213,7 +213,7 @@ impl Context<'_> {
     }
 
     /// One of a few words in a field that may be left out.
-    fn optional_word<T: Copy + FieldContents>(
+    pub(super) fn optional_word<T: Copy + FieldContents>(
         &mut self,
         leaf: Option<Leaf<'_>>,
         what: &'static str,
@@ -224,7 +224,7 @@ impl Context<'_> {
 }
 
 /// A field that may be left out.
-fn optional<'src, T: FieldContents>(
+pub(super) fn optional<'src, T: FieldContents>(
     leaf: Option<Leaf<'src>>,
     read: impl FnOnce(Leaf<'src>) -> Option<FieldValue<T>>,
 ) -> OptionalField<T> {

@@ -7,7 +7,7 @@ use super::resources::Fill;
 use crate::base::Span;
 use crate::frame::{Blend, Draw, ParamValue, RasterState, StencilState, ViewIndex};
 use crate::ron::{Name, Spanned};
-use crate::vulkan::{self, AddressMode, ColorComponents, CompareOp, Filter};
+use crate::vulkan::{self, AddressMode, BorderColor, ColorComponents, CompareOp, Filter, Real, SamplerReductionMode};
 use std::sync::Arc;
 
 /// A pass.
@@ -253,10 +253,36 @@ pub struct Sample {
     pub mip_filter: Option<Spanned<Filter>>,
     /// Address mode beyond the edges, if the file chooses one.
     pub address: Option<Spanned<AddressMode>>,
+    /// The rest of its sampler.
+    pub state: SamplerState,
     /// How the shader's depth is compared with the image's, if the file says so.
     pub compare: Option<Spanned<CompareOp>>,
     /// Whether each fragment reads only the texel at its own position, if the file says so.
     pub own_pixel: Option<Spanned<bool>>,
+}
+
+/// What a file says of a sampler beside filters, address mode and comparison.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct SamplerState {
+    /// The colour beyond the edges.
+    pub border: Option<BorderColor>,
+    /// What a linear filter makes of texels.
+    pub reduction: Option<SamplerReductionMode>,
+    /// Most samples along the direction of the slant.
+    pub anisotropy: Option<u32>,
+    /// What is added to the mip level.
+    pub lod_bias: Option<Real>,
+    /// The least mip level.
+    pub min_lod: Option<Real>,
+    /// The greatest mip level.
+    pub max_lod: Option<Real>,
+}
+
+impl SamplerState {
+    pub(crate) fn reaches_out(&self) -> bool {
+        let moves = |lod: Option<Real>| lod.is_some_and(|lod| !lod.is_zero());
+        self.anisotropy.is_some_and(|samples| samples > 1) || moves(self.lod_bias) || moves(self.min_lod)
+    }
 }
 
 /// A face of an image.

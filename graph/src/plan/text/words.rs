@@ -56,6 +56,23 @@ fn words_of(sampler: &Sampler) -> String {
     if let Some(compare) = &sampler.compare {
         words += &format!(", compared by {}", name_of(compare));
     }
+    if let Some(border) = &sampler.border {
+        words += &format!(", border {}", name_of(border));
+    }
+    if sampler.reduces() {
+        words += &format!(", reduced to {}", name_of(&sampler.reduction));
+    }
+    if sampler.anisotropy > 1 {
+        words += &format!(", anisotropy {}", sampler.anisotropy);
+    }
+    if !sampler.lod_bias.is_zero() {
+        words += &format!(", level bias {}", f32::from(sampler.lod_bias));
+    }
+    match (f32::from(sampler.min_lod), sampler.max_lod.map(f32::from)) {
+        (least, Some(greatest)) => words += &format!(", levels {least} to {greatest}"),
+        (least, None) if least > 0.0 => words += &format!(", levels from {least} on"),
+        (_, None) => {}
+    }
     words
 }
 

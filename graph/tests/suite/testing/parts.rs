@@ -13,6 +13,7 @@ pub(crate) fn device() -> Profile {
         format: *format,
         usage: everything,
         linear_filter: true,
+        minmax_filter: true,
         blend: true,
         samples: vec![1, 4, 8],
     };

@@ -41,6 +41,7 @@ mod point_lights;
 mod raster_states;
 mod resolves;
 mod rotation;
+mod samplers;
 mod saved_profiles;
 mod scale;
 mod shadow_errors;

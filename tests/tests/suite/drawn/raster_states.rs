@@ -1,7 +1,4 @@
 //! Raster state of pipelines (DO-6): what each state does to texels, calculated by hand.
-//!
-//! | tests | what turned them red |
-//! |---|---|
 
 use framewright_graph::compile::Options;
 use framewright_graph::frame::Stereo;
