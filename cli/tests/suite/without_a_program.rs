@@ -83,5 +83,5 @@ fn declared_uses_are_checked_where_they_stand() {
         assert!(err.contains(said) && err.contains("p.ron:5:13"), "{err}");
     }
     place.file("p.ron", declared(&right.replace("COMPUTE_SHADER", "COMPUTE")));
-    place.run(&["check", "p.ron"]).exits(1).mentions("p.ron:5:37").mentions("COMPUTE_SHADER");
+    place.run(&["check", "p.ron"]).exits(1).mentions("p.ron:5:38").mentions("COMPUTE_SHADER");
 }
