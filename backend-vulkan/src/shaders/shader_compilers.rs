@@ -130,7 +130,7 @@ const KNOWN: [KnownCompiler; 5] = [
 ];
 
 /// What a compiler is told of a stage.
-pub(super) struct Told<'t> {
+pub(super) struct StageToCompile<'t> {
     pub(super) stage: ShaderStage,
     pub(super) entry: Option<&'t str>,
     pub(super) macros: &'t [(String, String)],
@@ -258,7 +258,7 @@ impl CompilerCommand {
     }
 
     /// The arguments for a stage.
-    pub(super) fn arguments(&self, told: &Told<'_>) -> Vec<String> {
+    pub(super) fn arguments(&self, told: &StageToCompile<'_>) -> Vec<String> {
         let facts = told.stage.facts();
         let macros: Vec<String> = told.macros.iter().map(|(name, value)| defined(name, value)).collect();
         let of_entry = told.entry.map_or(&[][..], |_| self.of_entry).iter().copied();
