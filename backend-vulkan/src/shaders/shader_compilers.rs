@@ -185,8 +185,7 @@ impl ShaderCompilers {
         };
         let language = FileLanguage::ALL.into_iter().find(|it| *it != FileLanguage::Spirv && word(*it) == named);
         let Some(language) = language else {
-            let meant =
-                nearest(named, words.into_iter()).map_or_else(String::new, |it| format!("; did you mean `{it}`?"));
+            let meant = nearest(named, words).map_or_else(String::new, |it| format!("; did you mean `{it}`?"));
             return bad(format!("`{named}` is no language that is compiled so: {} are{meant}", words.join(", ")));
         };
         self.set(language, command)
