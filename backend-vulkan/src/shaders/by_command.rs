@@ -2,7 +2,7 @@
 
 use super::compiler_words::complaints;
 use super::files::SourceFile;
-use super::shader_compilers::{CompilerCommand, Told};
+use super::shader_compilers::{CompilerCommand, StageToCompile};
 use crate::base::{Cancel, in_words, is_crash};
 use crate::process::{Bounds, CompileJob, GivenUp, LARGEST_SPIRV, run};
 use framewright_graph::base::{FilePath, OutsideChoice};
@@ -43,7 +43,7 @@ pub(super) fn compile(
     places.write(source, &job.text, included).map_err(machine)?;
     let output = folder.path().join("out.spv");
     let input = places.within(&source.path);
-    let told = Told {
+    let told = StageToCompile {
         stage: job.stage,
         entry: job.entry.as_deref(),
         macros: &job.macros,

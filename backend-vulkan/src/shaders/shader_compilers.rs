@@ -130,7 +130,7 @@ const KNOWN: [KnownCompiler; 5] = [
 ];
 
 /// What a compiler is told of a stage.
-pub(super) struct Told<'t> {
+pub(super) struct StageToCompile<'t> {
     pub(super) stage: ShaderStage,
     pub(super) entry: Option<&'t str>,
     pub(super) macros: &'t [(String, String)],
@@ -185,8 +185,7 @@ impl ShaderCompilers {
         };
         let language = FileLanguage::ALL.into_iter().find(|it| *it != FileLanguage::Spirv && word(*it) == named);
         let Some(language) = language else {
-            let meant =
-                nearest(named, words.into_iter()).map_or_else(String::new, |it| format!("; did you mean `{it}`?"));
+            let meant = nearest(named, words).map_or_else(String::new, |it| format!("; did you mean `{it}`?"));
             return bad(format!("`{named}` is no language that is compiled so: {} are{meant}", words.join(", ")));
         };
         self.set(language, command)
@@ -258,7 +257,7 @@ impl CompilerCommand {
     }
 
     /// The arguments for a stage.
-    pub(super) fn arguments(&self, told: &Told<'_>) -> Vec<String> {
+    pub(super) fn arguments(&self, told: &StageToCompile<'_>) -> Vec<String> {
         let facts = told.stage.facts();
         let macros: Vec<String> = told.macros.iter().map(|(name, value)| defined(name, value)).collect();
         let of_entry = told.entry.map_or(&[][..], |_| self.of_entry).iter().copied();

@@ -23,7 +23,7 @@ pub(super) struct StageSource {
 pub(super) enum StageCode {
     Glsl,
     /// SPIR-V.
-    Module(ModuleFile),
+    Module(Box<ModuleFile>),
     /// A text in another language.
     Text(FileLanguage),
 }
@@ -62,7 +62,7 @@ impl StageSources {
             let Some((found, bytes)) = self.files.find_module(&path)? else { return Ok(None) };
             let bad = |what: String| ShaderProblem::BadModule { what: format!("{}: {what}", found.shown) };
             let module = ModuleFile::read(&bytes).map_err(bad)?;
-            (found, StageCode::Module(module))
+            (found, StageCode::Module(Box::new(module)))
         } else {
             let Some(found) = self.files.find(&path)? else { return Ok(None) };
             (found, FileLanguage::of_file(file).map_or(StageCode::Glsl, StageCode::Text))

@@ -281,7 +281,7 @@ fn a_constant_that_the_shader_has_not_or_of_another_type_is_said_at_its_place() 
         place.file(
             "p.ron",
             format!(
-                "Pipeline(version: 1, buffers: [(name: \"to\", bytes: 256)], passes: [
+                "Pipeline(version: 1, images: [], buffers: [(name: \"to\", bytes: 256)], passes: [
     (name: \"tile\", dispatch: \"tile\", groups: Invocations(64), storage: {{\"Numbers\": (buffer: \"to\", access: Write)}},
         constants: {{{constants}}}),
 ], outputs: [(buffer: \"to\", after: Host)])"

@@ -61,7 +61,13 @@ fn other_compilers_of_hlsl_draw_the_same() -> Result<(), Box<dyn Error>> {
         }
         let mut compilers = ShaderCompilers::default();
         compilers.set(FileLanguage::Hlsl, command)?;
-        is_right(&drawn(device, compilers)?, command);
+        match drawn(device, compilers) {
+            // DXC and slangc count vertices from the first of a draw.
+            Err(error) if error.to_string().contains("the vertex stage needs the feature shaderDrawParameters") => {
+                println!("skipped: {command}, whose vertex stage this device can't draw");
+            }
+            drawn => is_right(&drawn?, command),
+        }
     }
     Ok(())
 }
