@@ -45,8 +45,8 @@ pub use model::{
     Buffer, BufferPart, BufferRef, Bytes, Choice, ChosenBy, ChosenValue, Color, Decided, Decisions, DeclaredUse, Depth,
     Face, Fill, Format, Forward, Groups, Image, ImagePart, ImageRef, ImageShape, Instance, Layers, LeftOutSample,
     Lifetime, Mips, OffReason, Output, Param, Part, Pass, PassDecisions, Pipeline, Precision, Precisions, Preset,
-    RemovedPass, Resolves, ResourceRef, Sample, SamplerState, Samples, Selection, Setting, SettingKind, SettingsFile, Size, StandIn,
-    State, Storage, StorageAccess, Uniform, View, Work, last_step, nth_step,
+    RemovedPass, Resolves, ResourceRef, Sample, SamplerState, Samples, Selection, Setting, SettingKind, SettingsFile,
+    Size, StandIn, State, Storage, StorageAccess, Uniform, View, Work, last_step, nth_step,
 };
 pub use read::{read, read_bytes, read_bytes_with, read_extended, read_with};
 pub use schema::{FILES, goes_with, schema};

@@ -19,8 +19,8 @@ pub use decisions::{Decided, Decisions};
 pub use part::{BufferPart, ImagePart, Part, Selection};
 pub(crate) use part_uses::{PartRef, Use};
 pub use pass::{
-    Color, DeclaredUse, Depth, Face, Forward, Groups, LeftOutSample, OffReason, Param, Pass, PassDecisions, Sample, SamplerState,
-    StandIn, Storage, StorageAccess, Uniform, Work,
+    Color, DeclaredUse, Depth, Face, Forward, Groups, LeftOutSample, OffReason, Param, Pass, PassDecisions, Sample,
+    SamplerState, StandIn, Storage, StorageAccess, Uniform, Work,
 };
 pub use pipeline::{Instance, Output, Pipeline, RemovedPass};
 pub use references::{BufferRef, ImageRef, ResourceRef};
