@@ -17,7 +17,7 @@ mod barriers;
 mod boundaries;
 mod clocks;
 mod contents;
-mod declared;
+mod declared_uses;
 mod dependencies;
 mod eyes;
 mod findings;
