@@ -147,7 +147,7 @@ mod tests {
     #[test]
     fn every_format_gives_a_picture_of_its_size_in_every_encoding_that_fits() {
         let all = [Encoding::Srgb, Encoding::Unorm, Encoding::Linear, Encoding::Hdr10];
-        for format in Format::ALL {
+        for format in Format::ALL.iter().filter(|format| !format.is_compressed()) {
             let texels = vec![0x3f; texel::bytes(*format) * 6];
             for encoding in all.into_iter().filter(|it| it.fits(*format)).map(Some).chain([None]) {
                 let file = png(*format, encoding, [3, 2], &texels).expect("a picture");

@@ -94,7 +94,7 @@ mod tests {
         assert_eq!(values(Format::R8G8_SNORM, &[0x80, 0x7f]), [-1.0, 1.0, 0.0, 1.0]);
         assert_eq!(values(Format::R16G16_SINT, &[0xfd, 0xff, 4, 0]), [-3.0, 4.0, 0.0, 1.0]);
         assert_eq!(values(Format::R32G32_UINT, &[0, 1, 0, 0, 2, 0, 0, 0]), [256.0, 2.0, 0.0, 1.0]);
-        for format in Format::ALL {
+        for format in Format::ALL.iter().filter(|format| !format.is_compressed()) {
             let all = values(*format, &[0x3f; 16][..texel_bytes(*format)]);
             assert!((1..=4).contains(&components(*format)) && all[0].is_finite(), "{format}");
         }
