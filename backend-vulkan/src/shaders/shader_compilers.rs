@@ -49,6 +49,17 @@ const OUTPUT: &str = "{output}";
 const FOLDER: &str = "{folder}";
 const MACRO: &str = "{macro}";
 
+/// All of them.
+const STAND_INS: [&str; 8] = [INPUT, OUTPUT, FOLDER, MACRO, "{entry}", "{stage}", "{ending}", "{profile}"];
+
+/// What looks as if it stood for something in an argument.
+fn stand_ins(word: &str) -> impl Iterator<Item = &str> {
+    word.match_indices('{').filter_map(|(start, _)| {
+        let end = start + word[start..].find('}')? + 1;
+        word[start + 1..end - 1].chars().all(|it| it.is_ascii_lowercase()).then(|| &word[start..end])
+    })
+}
+
 const KNOWN: [KnownCompiler; 5] = [
     KnownCompiler {
         name: "dxc",
@@ -206,6 +217,9 @@ impl CompilerCommand {
         let mut words = divided(text)?.into_iter();
         let Some(program) = words.next() else { return Err("the command is empty".to_owned()) };
         let mut words: Vec<String> = words.collect();
+        if let Some(unknown) = words.iter().flat_map(|word| stand_ins(word)).find(|it| !STAND_INS.contains(it)) {
+            return Err(format!("`{unknown}` stands for nothing: there are {}", STAND_INS.join(", ")));
+        }
         let mut of_entry: &[&str] = &[];
         if !words.iter().any(|word| word.contains(INPUT)) {
             let Some(known) = known(&program) else {

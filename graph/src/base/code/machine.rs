@@ -55,7 +55,7 @@ room! {
 
     /// The compiler of a shader's language can't be used.
     ///
-    /// HLSL, Slang and WGSL are compiled by a command that you name: `--shader-compiler slang=slangc`, or
+    /// Slang and WGSL, and HLSL where you like, are compiled by a command that you name: `--shader-compiler slang=slangc`, or
     /// `FRAMEWRIGHT_SLANG_COMPILER`. It isn't there, took too long, failed without a word, or wrote no SPIR-V of version 1.6 or before.
     SHADER_COMPILER = 1310,
 }
