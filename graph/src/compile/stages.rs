@@ -40,8 +40,8 @@ pub(super) fn decide(
 ) -> Result<(Decisions, Option<Frame>), Vec<Diagnostic>> {
     let (grids, live) = cull::live(frame)?;
     let formats = fit::formats(frame, &live.passes, device);
-    let of_needs = fit::check_needs(frame, &live.passes, device)?;
     let frame = formats.frame(frame);
+    let of_needs = fit::check_needs(frame, &live.passes, device)?;
     let negotiated = fit::negotiate(frame, &live.passes, &formats)?;
     let input = adapt::Input { frame, grids: &grids, live: &live, negotiated: &negotiated, device, options };
     let (adapted, of_adapt) = adapt::adapt(input)?;

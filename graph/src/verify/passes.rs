@@ -10,8 +10,8 @@ use crate::plan::names::ShownText;
 use crate::plan::{Access, Attachment, BindingKind, BufferAccess, Image, Pass, RenderScope};
 use crate::shader::MOST_PARTS;
 use crate::vulkan::{
-    Accesses, Aspects, CompareOp, Component, Dimension, Format, ImageShape, Layout, PrimitiveTopology, Sampler, Shape,
-    Stages, StencilOp, name_of,
+    Accesses, Aspects, ColorComponents, CompareOp, Component, Dimension, Format, ImageShape, Layout, PrimitiveTopology,
+    Sampler, Shape, Stages, StencilOp, name_of,
 };
 
 const STORAGE: Accesses = Accesses::SHADER_STORAGE_READ.union(Accesses::SHADER_STORAGE_WRITE);
@@ -74,6 +74,12 @@ impl<'p> Check<'_, 'p> {
         }
         if !(pass.write_masks.is_empty() || pass.write_masks.len() == scope.color().len()) {
             self.wrong_pass(pass, "doesn't say which channels it writes of each colour attachment");
+        }
+        if pass.write_masks.iter().any(|mask| !ColorComponents::RGBA.contains(*mask)) {
+            self.wrong_pass(pass, "writes a channel that there isn't");
+        }
+        if f32::from(pass.raster.line_width) < 1.0 {
+            self.wrong_pass(pass, "draws lines that are narrower than a texel");
         }
         let own_vertices = pass.draw.is_some_and(|draw| draw.has_own_vertices() || draw.is_custom());
         if pass.raster.topology != PrimitiveTopology::TriangleList && !own_vertices {

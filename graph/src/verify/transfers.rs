@@ -55,6 +55,8 @@ impl<'p> Check<'_, 'p> {
                 let Some([source, target]) = self.images(transfer) else { return };
                 let (from, to) = (source.image, target.image);
                 self.demand(source.extent == target.extent, to.id, "is copied to in another size");
+                let compressed = from.format.is_compressed() || to.format.is_compressed();
+                self.demand(!compressed, to.id, "is copied, and compressed images are only sampled");
                 self.demand(to.samples == from.samples, to.id, "is copied to from another sample count");
                 let colors = !from.format.is_depth() && !to.format.is_depth();
                 let alike = colors && from.format.texel_bytes() == to.format.texel_bytes();
@@ -141,6 +143,7 @@ impl<'p> Check<'_, 'p> {
         let Some(side) = self.image_side(side, source) else { return };
         let id: ImageId = side.image.id;
         self.demand(side.range.mips == 1, id, "is transferred with more than one mip level");
+        self.demand(!side.image.format.is_compressed(), id, "is copied, and compressed images are only sampled");
         self.demand(side.image.samples == 1, id, "is copied to or from a buffer and multisampled");
         let Some(texel) = texel_bytes(side.image.format, side.range.aspects) else {
             return self.wrong(id, "is copied to or from a buffer with more than one plane");

@@ -196,6 +196,8 @@ impl Sampler {
     #[must_use]
     pub fn mistake(&self, format: Format) -> Option<&'static str> {
         let [least, greatest] = [Some(self.min_lod), self.max_lod].map(|lod| lod.map(f32::from));
+        // Vulkan's VK_LOD_CLAMP_NONE, which stands for no bound.
+        let greatest = greatest.or(Some(1000.0));
         match () {
             () if self.border.is_some_and(|border| !border.fits(format)) => {
                 Some("its border is one of integers exactly where the image holds integers")

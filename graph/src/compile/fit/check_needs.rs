@@ -20,7 +20,7 @@ pub(crate) fn check_needs(frame: &Frame, live: &[u32], device: &Profile) -> Resu
             if let Some(missing) = declared.state.features().find(|feature| !device.has_feature(feature)) {
                 let name = frame.name(declared.resource);
                 let message = format!(
-                    "`{}` uses `{name}` as needs the feature {missing}, which `{}` doesn't have",
+                    "`{}` uses `{name}` in a way that needs the feature {missing}, which `{}` doesn't have",
                     pass.name, device.name
                 );
                 errors.push(Diagnostic::new(Code::STATE_NEEDS, declared.span, message));

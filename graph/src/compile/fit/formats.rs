@@ -9,8 +9,8 @@ use super::needs::{Needs, Supports};
 use crate::device::Profile;
 use crate::frame::{Frame, Image, ImageIndex, Lifetime, Pass, Resource};
 use crate::plan::{Note, NoteKind};
-use crate::vulkan::Encoding;
 use crate::vulkan::Format::{self, *};
+use crate::vulkan::{ColorComponents, Encoding};
 use petgraph::unionfind::UnionFind;
 use std::collections::BTreeMap;
 
@@ -138,7 +138,12 @@ fn fall_back(frame: &Frame, live: &[u32], needs: &[Needs], supports: &Supports<'
     for (number, made) in made.into_iter().enumerate() {
         let Some((format, missing)) = made else { continue };
         let image = &mut substitute.images[number];
+        // A pass that writes all channels of the format writes those that the other one has more.
+        let all = ColorComponents::first(image.format.components());
         image.format = format;
+        let targets = substitute.passes.iter_mut().flat_map(|pass| &mut pass.color);
+        let whole = targets.filter(|target| target.image.0 as usize == number && target.write_mask.contains(all));
+        whole.for_each(|target| target.write_mask = ColorComponents::RGBA);
         image.chosen.take_if(|chosen| chosen.usual == format);
         notes.push(note(frame, number, format, &format!("`{}` has no {missing} for it", supports.device.name)));
     }

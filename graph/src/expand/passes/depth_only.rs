@@ -53,7 +53,11 @@ fn hindrance(
     }
     let variant = variant::of(resources, described);
     let whole = shaders.drawn(shader, draw, &variant).ok()?;
-    let alone = shaders.drawn(shader, draw, &Variant { depth_only: true, ..Variant::default() });
+    let alone = shaders.drawn(
+        shader,
+        draw,
+        &Variant { depth_only: true, constants: variant.constants.clone(), ..Variant::default() },
+    );
     let wrong = match alone {
         Ok(alone) if variant.alpha_to_coverage && !coverage::leaves_out(&alone) => {
             "it leaves out no samples, which its alpha does".to_owned()
@@ -89,6 +93,9 @@ fn difference(whole: &ShaderInterface, alone: &ShaderInterface) -> Option<String
     let own = |binding: &&Binding| binding.set == PASS_SET && binding.name != PARAMS;
     if let Some(read) = alone.bindings.iter().find(own) {
         return Some(format!("it still uses `{}`, which may have changed since", read.name));
+    }
+    if let Some(written) = alone.program.iter().find(|it| it.writable) {
+        return Some(format!("it still writes `{}` of the program's", written.name));
     }
     // A vertex shader that lacks one of its inputs would put the geometry elsewhere.
     let moving = |binding: &&Binding| own(binding) && binding.stages.contains(Stages::VERTEX_SHADER);

@@ -16,18 +16,25 @@ pub(in crate::expand) fn as_written(pass: &language::Pass) -> Vec<(Arc<str>, Par
 /// Reports values of constants that the shader hasn't, and of another type.
 pub(in crate::expand) fn check(pass: &language::Pass, interface: &ShaderInterface, errors: &mut Vec<Diagnostic>) {
     let Some(Name { text: shader, .. }) = pass.shader() else { return };
+    let mut numbers = Vec::new();
     for given in &pass.constants {
         let name = &given.name.text;
-        let Some(constant) = interface.constants.iter().find(|constant| constant.is_called(name)) else {
+        let called: Vec<_> = interface.constants.iter().filter(|constant| constant.is_called(name)).collect();
+        if called.is_empty() {
             let known = || interface.constants.iter().map(|constant| constant.name.as_str());
             let none = "it has no specialization constants: `layout(constant_id = 0) const int TILE = 8;` is one";
             let help = suggestion(name, known()).unwrap_or_else(|| none.to_owned());
             let message = format!("shader `{shader}` has no constant named `{name}`");
             errors.push(Diagnostic::new(Code::SHADER_CONSTANT, given.name.span, message).help(help));
             continue;
-        };
-        let fits = ParamType::of(&constant.ty).is_some_and(|ty| ty.take(&given.value.value).is_ok());
-        if !fits {
+        }
+        if let Some(twice) = called.iter().find(|constant| numbers.contains(&constant.number)) {
+            let message = format!("constant {} of shader `{shader}` has two values", twice.number);
+            errors.push(Diagnostic::new(Code::SHADER_CONSTANT, given.name.span, message));
+        }
+        numbers.extend(called.iter().map(|constant| constant.number));
+        let fits = |ty: &str| ParamType::of(ty).is_some_and(|ty| ty.take(&given.value.value).is_ok());
+        if let Some(constant) = called.iter().find(|constant| !fits(&constant.ty)) {
             let (ty, value) = (&constant.ty, shown(given));
             let message = format!("constant `{name}` of shader `{shader}` has the type `{ty}` and can't be {value}");
             let wrong = Diagnostic::new(Code::SHADER_CONSTANT, given.value.span, message);
