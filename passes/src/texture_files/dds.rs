@@ -165,7 +165,7 @@ fn dxgi(header: &Header10) -> Result<StoredTexels, TextureProblem> {
         (7, _) => Ok(StoredTexels::of_three(R32G32B32A32_UINT, 12)),
         (_, Some(format)) if UNUSED_ALPHA.contains(&number) => Ok(StoredTexels::of_three(format, 4)),
         (_, Some(format)) => Ok(StoredTexels::whole(format)),
-        (_, None) => Err(TextureProblem::OtherFormat { format: format!("DXGI's format with the number {number}") }),
+        (_, None) => Err(TextureProblem::OtherFormat { format: format!("DXGI's format {:?}", header.dxgi_format) }),
     }
 }
 
@@ -175,7 +175,9 @@ fn legacy(said: &PixelFormat) -> Result<StoredTexels, TextureProblem> {
     if let Some(letters) = &said.fourcc {
         let found = LETTERS.iter().find(|(known, _)| *known == letters.0);
         let name = letters.0.to_le_bytes().escape_ascii().to_string();
-        return found.map(|(_, format)| StoredTexels::whole(*format)).ok_or_else(|| other(format!("texels named {name}")));
+        return found
+            .map(|(_, format)| StoredTexels::whole(*format))
+            .ok_or_else(|| other(format!("texels named {name}")));
     }
     let bits = said.rgb_bit_count.unwrap_or(0);
     let [red, green, blue] = [said.r_bit_mask, said.g_bit_mask, said.b_bit_mask].map(|mask| mask.unwrap_or(0));

@@ -171,7 +171,7 @@ fn basis_universal_and_formats_that_no_image_has_are_refused_by_name() {
     let dds = Dds { texels: DdsTexels::Dxgi(85), ..FLAT }.with(&[0; 16]);
     assert_eq!(refused(&dds), "holds DXGI's format B5G6R5_UNorm, which no image has here");
     let dds = Dds { texels: DdsTexels::Letters(*b"PVRT"), ..FLAT }.with(&[0; 16]);
-    assert_eq!(refused(&dds), "holds texels \"PVRT\", which no image has here");
+    assert_eq!(refused(&dds), "holds texels named PVRT, which no image has here");
 }
 
 #[test]
