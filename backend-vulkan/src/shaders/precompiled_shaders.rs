@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 const MAGIC: u32 = 0x0723_0203;
 
 /// A folder of compiled stages, one file of SPIR-V each. A file's name holds a digest of all that it was compiled from: the stage's
-/// text and macros, the files that it includes or may include, and the version of this crate. A stage whose text has changed since,
+/// text and macros, the files that it includes or may include, the command that compiles it, and the version of this crate. A stage whose text has changed since,
 /// or that a pass needs with other macros, has another name. Line endings don't count.
 ///
 /// Drivers are given what such files hold: they must be trusted as the program itself.
@@ -44,8 +44,8 @@ impl PrecompiledShaders {
         &self.folder
     }
 
-    /// The file of a stage, whether it is there or not.
-    pub(super) fn file(&self, job: &CompileJob, source: &SourceFile, files: &ShaderFiles) -> PathBuf {
+    /// The file of a stage, whether it is there or not. `command` compiles it; empty where that is shaderc.
+    pub(super) fn file(&self, job: &CompileJob, command: &str, source: &SourceFile, files: &ShaderFiles) -> PathBuf {
         let mut digest = Sha256::new();
         let mut add = |text: &str| {
             let text = unix_lines(text);
@@ -54,7 +54,7 @@ impl PrecompiledShaders {
         };
         [env!("CARGO_PKG_VERSION"), job.stage.facts().name, &job.text].into_iter().for_each(&mut add);
         if let Some(language) = job.language {
-            [language.facts().name, job.entry.as_deref().unwrap_or_default()].into_iter().for_each(&mut add);
+            [language.facts().name, job.entry.as_deref().unwrap_or_default(), command].into_iter().for_each(&mut add);
         }
         job.macros.iter().flat_map(|(name, value)| [name, value]).for_each(|text| add(text));
         included(files, source).iter().for_each(|file| add(&file.text));
