@@ -6,7 +6,7 @@
 
 use super::files::{ShaderFiles, SourceFile};
 use super::messages::located;
-use super::text::{CommentLines, Literals, joined, quoted_imports, without_comments_as, words};
+use super::text::{CommentLines, IMPORTS, Literals, joined, quoted_imports, without_comments_as, words};
 use framewright_graph::base::FilePath;
 use framewright_graph::shader::{FileLanguage, ShaderProblem};
 use std::collections::{BTreeSet, HashMap, HashSet};
@@ -112,13 +112,16 @@ fn in_code(code: &str, language: Option<FileLanguage>, all: &mut BTreeSet<(usize
                 add(Asked::Otherwise("raw strings aren't taken".to_owned()));
             }
             let inside = line[quote + 1..].split('"').next().unwrap_or_default();
-            if slang && leads_out(inside) && !is_include(line) {
+            let named = is_include(line) || IMPORTS.contains(&words_end(line[..quote].trim_end()));
+            if slang && leads_out(inside) && !named {
                 // A macro may make an `import` of it.
                 add(Asked::Named(inside.to_owned()));
             }
         }
         if slang && makes_strings(line) {
-            add(Asked::Otherwise("a macro that makes strings (`#name`) isn't taken in Slang: it may name files".to_owned()));
+            add(Asked::Otherwise(
+                "a macro that makes strings (`#name`) isn't taken in Slang: it may name files".to_owned(),
+            ));
         }
     }
     if slang {
@@ -150,7 +153,9 @@ fn in_directive(line: &str, language: Option<FileLanguage>) -> Option<Asked> {
     };
     Some(match literal {
         Some((name, _)) => Asked::Named(name.to_owned()),
-        None => Asked::Otherwise("an include must name its file in quotes: names that macros make up aren't found".to_owned()),
+        None => Asked::Otherwise(
+            "an include must name its file in quotes: names that macros make up aren't found".to_owned(),
+        ),
     })
 }
 

@@ -288,7 +288,11 @@ impl CompilerCommand {
         let mut libraries: Vec<PathBuf> = beside.flat_map(libraries).collect();
         libraries.sort();
         files.extend(libraries);
-        std::iter::once(program).chain(files.iter().map(PathBuf::as_path)).map(identity_of).collect::<Vec<_>>().join("; ")
+        std::iter::once(program)
+            .chain(files.iter().map(PathBuf::as_path))
+            .map(identity_of)
+            .collect::<Vec<_>>()
+            .join("; ")
     }
 
     /// The arguments for a stage.

@@ -125,7 +125,7 @@ fn named_in(file: &SourceFile) -> Vec<String> {
 }
 
 /// The words of Slang that name a module.
-const IMPORTS: [&str; 4] = ["import", "__import", "__include", "implementing"];
+pub(super) const IMPORTS: [&str; 4] = ["import", "__import", "__include", "implementing"];
 
 /// The files of the modules that a text in Slang imports or takes in without quotes. `a.b_c` is `a/b_c.slang` or `a/b-c.slang`.
 fn imported_in(text: &str) -> Vec<String> {
