@@ -1,6 +1,6 @@
 //! HLSL, Slang and WGSL to SPIR-V by a command: it is given a folder with the shader and what it includes, and no others.
 
-use super::compiler_words::complaints;
+use super::compiler_words::{complaints, cut};
 use super::files::SourceFile;
 use super::shader_compilers::{CompilerCommand, StageToCompile};
 use crate::base::{Cancel, in_words, is_crash};
@@ -42,13 +42,13 @@ pub(super) fn compile(
     let places = Places::new(folder.path(), source, included);
     places.write(source, &job.text, included).map_err(machine)?;
     let output = folder.path().join("out.spv");
-    let input = places.within(&source.path);
+    let input = as_argument(&places.within(&source.path));
     let told = StageToCompile {
         stage: job.stage,
         entry: job.entry.as_deref(),
         macros: &job.macros,
         folders: &[".".to_owned(), places.shipped.display().to_string()],
-        input: &input.display().to_string(),
+        input: &input,
         output: &output.display().to_string(),
     };
     let mut started = Command::new(program);
@@ -74,12 +74,21 @@ pub(super) fn compile(
     }
     let bytes = match fs::read(&output) {
         Ok(bytes) if !bytes.is_empty() => bytes,
-        Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(machine(error)),
+        Err(error) if error.kind() != io::ErrorKind::NotFound => {
+            let what = format!("what its compiler `{}` wrote can't be read: {error}", command.program());
+            return Err(ShaderProblem::Machine { what });
+        }
         _ => return Err(faulty(command, "wrote nothing, and says that all is well".to_owned(), &said)),
     };
     super::module_words::words(&bytes)
         .map_err(|what| faulty(command, format!("wrote no SPIR-V that can be read: {what}"), &said))?;
     Ok(bytes.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect())
+}
+
+/// A path that no program takes for an option.
+fn as_argument(path: &Path) -> String {
+    let whole = path.is_absolute() || path.starts_with("..") || path.starts_with(".");
+    if whole { path.display().to_string() } else { format!("./{}", path.display()) }
 }
 
 /// That what a compiler wrote breaks a rule of SPIR-V.
@@ -101,7 +110,7 @@ fn not_there(command: &CompilerCommand) -> ShaderProblem {
 
 /// A compiler that doesn't do what compilers do. What it printed may say why.
 fn faulty(command: &CompilerCommand, what: String, said: &str) -> ShaderProblem {
-    let said: Vec<&str> = said.lines().map(str::trim_end).filter(|line| !line.is_empty()).take(8).collect();
+    let said: Vec<String> = said.lines().map(str::trim_end).filter(|line| !line.is_empty()).take(8).map(cut).collect();
     let help = if said.is_empty() { String::new() } else { format!("it said: {}", said.join("\n")) };
     let what = format!("its compiler `{}` {what}", command.program());
     ShaderProblem::Compiler { what, help, of_machine: false, choice: None }

@@ -5,6 +5,9 @@ use super::messages::{bounded, underlined};
 use framewright_graph::base::Quote;
 use framewright_graph::shader::ShaderMessage;
 
+/// Letters of a line that are shown.
+const LONGEST_LINE: usize = 500;
+
 /// A mistake as a compiler tells it.
 #[derive(Debug, PartialEq, Eq)]
 struct Complaint<'s> {
@@ -22,11 +25,20 @@ pub(super) fn complaints(said: &str, files: &[&SourceFile]) -> Vec<ShaderMessage
         return bounded(located);
     }
     let lines = said.lines().map(str::trim_end).filter(|line| !line.is_empty());
-    bounded(lines.map(|line| ShaderMessage { text: line.to_owned(), quote: None, limit: None }).collect())
+    bounded(lines.map(|line| ShaderMessage { text: cut(line), quote: None, limit: None }).collect())
+}
+
+/// A line that a compiler said, without what follows its first letters if it has very many.
+pub(super) fn cut(line: &str) -> String {
+    match line.char_indices().nth(LONGEST_LINE) {
+        Some((end, _)) => format!("{}…", &line[..end]),
+        None => line.to_owned(),
+    }
 }
 
 fn message(complaint: &Complaint<'_>, files: &[&SourceFile]) -> Option<ShaderMessage> {
     let Complaint { file, line: number, column, words } = complaint;
+    let words = cut(words);
     let is = |known: &&&SourceFile| {
         let file = file.strip_prefix("./").unwrap_or(file);
         known.shown == file || known.path.path() == file || known.shown.strip_prefix("./") == Some(file)
@@ -41,7 +53,7 @@ fn message(complaint: &Complaint<'_>, files: &[&SourceFile]) -> Option<ShaderMes
     let quote = Quote {
         file: file.shown.clone(),
         line: *number,
-        underlined: at_column.unwrap_or_else(|| underlined(line, words)),
+        underlined: at_column.unwrap_or_else(|| underlined(line, &words)),
         text: line.to_owned(),
         remark: words.clone(),
     };
@@ -161,6 +173,12 @@ mod tests {
             assert_eq!(told(said), expected, "{said}");
         }
         assert_eq!(found("warning: x\nERROR: 1 compilation errors. No code generated.\nnote: a:1:2: what"), []);
+    }
+
+    #[test]
+    fn a_long_line_is_cut() {
+        assert_eq!(cut("é x"), "é x");
+        assert_eq!(cut(&"é".repeat(501)), format!("{}…", "é".repeat(500)));
     }
 
     #[test]

@@ -4,13 +4,14 @@
 use super::by_command;
 use super::compile::{Includes, compile};
 use super::files::{ShaderFiles, SourceFile};
+use super::foreign_files::refuse_foreign;
 use super::messages::located;
 use super::precompiled_shaders::PrecompiledShaders;
 use super::shader_compilers::{CompilerCommand, ShaderCompilers};
 use super::spirv_cache::{Inclusions, SpirvCache};
 use super::text::included;
 use super::validator::judge;
-use crate::base::{Cancel, digest, identity_of};
+use crate::base::{Cancel, digest};
 use crate::process::{
     CompileFailure, CompileJob, CompilerAnswer, Helper, IncludedFile, LARGEST_SPIRV, Limits, NoAnswer, Verdict,
 };
@@ -54,7 +55,8 @@ impl Compilers {
         files: &ShaderFiles,
     ) -> Result<CompilerAnswer, ShaderProblem> {
         let Some(precompiled) = self.precompiled.clone() else { return self.compile_now(job, source, files) };
-        let file = precompiled.file(job, source, files);
+        let command = job.language.and_then(|language| self.commands.of(language));
+        let file = precompiled.file(job, command.map_or("", CompilerCommand::text), source, files);
         if let Some(spirv) = PrecompiledShaders::read(&file)? {
             let verdict = judge(&spirv);
             return Ok(CompilerAnswer { spirv, verdict });
@@ -135,13 +137,14 @@ impl Compilers {
         files: &ShaderFiles,
     ) -> Result<CompilerAnswer, ShaderProblem> {
         let included = included(files, source);
+        refuse_foreign(files, source, &included)?;
         let (limits, cancel, cache) = match &self.compiler {
             Compiler::Helper(helper, _) => (helper.limits().clone(), helper.cancel().clone(), helper.cache()),
             Compiler::Here => (Limits::default(), Arc::<Cancel>::default(), None),
         };
         let mut cache = cache.zip(command.file()).map(|(cache, program)| {
             let texts: Vec<_> = included.iter().map(|file| (file.path.to_string(), unix_lines(&file.text))).collect();
-            let identity = format!("{}; {}; {:016x}", identity_of(&program), command.text(), digest(&texts));
+            let identity = format!("{}; {}; {:016x}", command.identity(&program), command.text(), digest(&texts));
             SpirvCache::of_command(cache, identity)
         });
         let found = cache.as_ref().and_then(|cache| cache.find(job, &mut |_, _| Err(String::new())));
@@ -160,6 +163,11 @@ impl Compilers {
     /// The name of the compiler of a language, for messages.
     pub(super) fn name_of(&self, language: FileLanguage) -> &str {
         self.commands.of(language).map_or("shaderc", CompilerCommand::program)
+    }
+
+    /// Whether the compiler of a language is told which entry point is wanted.
+    pub(super) fn is_told_entry(&self, language: FileLanguage) -> bool {
+        self.commands.of(language).is_none_or(CompilerCommand::is_told_entry)
     }
 
     /// That there is no compiler for a file.

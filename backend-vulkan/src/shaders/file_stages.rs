@@ -56,6 +56,7 @@ impl FileStage<'_> {
             module.spread_registers();
         }
         // Compilers that are told of one entry point may call it `main`.
-        module.cut(file, stage, entry.filter(|_| !module.has_one(stage)), constants)
+        let renamed = compilers.is_told_entry(language) && module.only_entry(stage) == Some("main");
+        module.cut(file, stage, entry.filter(|_| !renamed), constants)
     }
 }

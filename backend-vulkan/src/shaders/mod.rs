@@ -18,6 +18,7 @@ mod extensions;
 mod eyes;
 mod file_stages;
 mod files;
+mod foreign_files;
 mod indexing;
 mod layers;
 mod library;

@@ -57,9 +57,10 @@ impl ModuleFile {
         registers::spread(&mut self.module);
     }
 
-    /// Whether it has one entry point of a stage.
-    pub(super) fn has_one(&self, stage: ShaderStage) -> bool {
-        self.entry_points().filter(|entry| entry.model == stage.facts().model).count() == 1
+    /// The name of its entry point of a stage, if it has only one.
+    pub(super) fn only_entry(&self, stage: ShaderStage) -> Option<&str> {
+        let mut of_stage = self.entry_points().filter(|entry| entry.model == stage.facts().model);
+        of_stage.next().filter(|_| of_stage.next().is_none()).map(|entry| entry.name)
     }
 
     fn entry_points(&self) -> impl Iterator<Item = EntryPoint<'_>> {

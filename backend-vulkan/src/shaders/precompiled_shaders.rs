@@ -5,7 +5,7 @@ use super::text::included;
 use crate::base::with_usual_rights;
 use crate::process::{CompileJob, LARGEST_SPIRV};
 use framewright_graph::base::{ReadFiles, is_of_machine, unix_lines};
-use framewright_graph::shader::ShaderProblem;
+use framewright_graph::shader::{FileLanguage, ShaderProblem};
 use sha2::{Digest, Sha256};
 use std::fs;
 use std::io::{self, Read, Write};
@@ -15,8 +15,9 @@ use std::path::{Path, PathBuf};
 const MAGIC: u32 = 0x0723_0203;
 
 /// A folder of compiled stages, one file of SPIR-V each. A file's name holds a digest of all that it was compiled from: the stage's
-/// text and macros, the files that it includes or may include, and the version of this crate. A stage whose text has changed since,
-/// or that a pass needs with other macros, has another name. Line endings don't count.
+/// text and macros, the files that it includes or may include, and the version of this crate. Behind it stands one of the command, if
+/// a command compiled it; a program that names no command takes what any one made. A stage whose text has changed since, or that a
+/// pass needs with other macros, has another name. Line endings don't count.
 ///
 /// Drivers are given what such files hold: they must be trusted as the program itself.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -44,8 +45,8 @@ impl PrecompiledShaders {
         &self.folder
     }
 
-    /// The file of a stage, whether it is there or not.
-    pub(super) fn file(&self, job: &CompileJob, source: &SourceFile, files: &ShaderFiles) -> PathBuf {
+    /// The file of a stage, whether it is there or not. `command` compiles it; empty where shaderc or none does.
+    pub(super) fn file(&self, job: &CompileJob, command: &str, source: &SourceFile, files: &ShaderFiles) -> PathBuf {
         let mut digest = Sha256::new();
         let mut add = |text: &str| {
             let text = unix_lines(text);
@@ -58,10 +59,30 @@ impl PrecompiledShaders {
         }
         job.macros.iter().flat_map(|(name, value)| [name, value]).for_each(|text| add(text));
         included(files, source).iter().for_each(|file| add(&file.text));
-        let digest: String = digest.finalize().iter().take(16).map(|byte| format!("{byte:02x}")).collect();
         // For people alone.
         let name = Path::new(source.path.path()).file_name().unwrap_or_default().to_string_lossy();
-        self.folder.join(format!("{name}.{digest}.spv"))
+        let begun = format!("{name}.{}", letters(digest, 16));
+        if !command.is_empty() {
+            let by = letters(Sha256::new_with_prefix(command), 8);
+            return self.folder.join(format!("{begun}.{by}.spv"));
+        }
+        let file = self.folder.join(format!("{begun}.spv"));
+        // Shaderc compiles what is to be added; else what any command made is taken: the folder is there so that none is needed.
+        let by_shaderc = matches!(job.language, None | Some(FileLanguage::Hlsl));
+        if job.language.is_none() || self.adds && by_shaderc || file.exists() {
+            return file;
+        }
+        self.by_any_command(&begun).unwrap_or(file)
+    }
+
+    /// The first file of a stage that a command made.
+    fn by_any_command(&self, begun: &str) -> Option<PathBuf> {
+        let made = fs::read_dir(&self.folder).ok()?.flatten().filter_map(|entry| entry.file_name().into_string().ok());
+        let of_stage = made.filter(|name| {
+            let rest = name.strip_prefix(begun).and_then(|rest| rest.strip_prefix('.'));
+            rest.and_then(|rest| rest.strip_suffix(".spv")).is_some_and(|by| !by.is_empty())
+        });
+        of_stage.min().map(|name| self.folder.join(name))
     }
 
     /// The SPIR-V in the file of a stage; `None` if there is no such file.
@@ -108,4 +129,9 @@ impl PrecompiledShaders {
         };
         written().map_err(|error| format!("the precompiled shader {} can't be written: {error}", file.display()))
     }
+}
+
+/// The first bytes of a digest in letters.
+fn letters(digest: Sha256, bytes: usize) -> String {
+    digest.finalize().iter().take(bytes).map(|byte| format!("{byte:02x}")).collect()
 }

@@ -1,10 +1,11 @@
 //! Commands that compile HLSL, Slang and WGSL, as the user or the program names them. No pipeline names one: files may be a stranger's.
 
-use crate::base::ShaderStage;
+use crate::base::{ShaderStage, identity_of};
 use framewright_graph::base::nearest;
 use framewright_graph::shader::FileLanguage;
 use std::collections::BTreeMap;
 use std::env;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The commands that compile shaders in HLSL, Slang and WGSL. Without one, HLSL is compiled by shaderc, and Slang and WGSL aren't.
@@ -48,9 +49,10 @@ const INPUT: &str = "{input}";
 const OUTPUT: &str = "{output}";
 const FOLDER: &str = "{folder}";
 const MACRO: &str = "{macro}";
+const ENTRY: &str = "{entry}";
 
 /// All of them.
-const STAND_INS: [&str; 8] = [INPUT, OUTPUT, FOLDER, MACRO, "{entry}", "{stage}", "{ending}", "{profile}"];
+const STAND_INS: [&str; 8] = [INPUT, OUTPUT, FOLDER, MACRO, ENTRY, "{stage}", "{ending}", "{profile}"];
 
 /// What looks as if it stood for something in an argument.
 fn stand_ins(word: &str) -> impl Iterator<Item = &str> {
@@ -270,6 +272,29 @@ impl CompilerCommand {
         &self.text
     }
 
+    /// Whether it is told which entry point is wanted.
+    pub(super) fn is_told_entry(&self) -> bool {
+        let mut words = self.words.iter().map(String::as_str).chain(self.of_entry.iter().copied());
+        words.any(|word| word.contains(ENTRY))
+    }
+
+    /// What tells its files from others: those of the program and of the libraries near it, and those that its words name, as
+    /// `sh tool.sh` does.
+    pub(super) fn identity(&self, program: &Path) -> String {
+        let resolved = program.canonicalize().unwrap_or_else(|_| program.to_owned());
+        let named = self.words.iter().map(|word| std::path::absolute(word).unwrap_or_else(|_| word.into()));
+        let mut files: Vec<PathBuf> = named.filter(|file| file.is_file()).collect();
+        let beside = resolved.parent().into_iter().flat_map(|folder| [folder.to_owned(), folder.join("../lib")]);
+        let mut libraries: Vec<PathBuf> = beside.flat_map(libraries).collect();
+        libraries.sort();
+        files.extend(libraries);
+        std::iter::once(program)
+            .chain(files.iter().map(PathBuf::as_path))
+            .map(identity_of)
+            .collect::<Vec<_>>()
+            .join("; ")
+    }
+
     /// The arguments for a stage.
     pub(super) fn arguments(&self, told: &StageToCompile<'_>) -> Vec<String> {
         let facts = told.stage.facts();
@@ -294,23 +319,46 @@ impl CompilerCommand {
             if repeated(word) {
                 for value in values {
                     arguments.extend(flag.map(str::to_owned));
-                    arguments.push(word.replace(FOLDER, value).replace(MACRO, value));
+                    arguments.push(put(word, &[(FOLDER, value), (MACRO, value)]));
                 }
                 continue;
             }
-            let put = [
+            let values = [
                 (INPUT, told.input),
                 (OUTPUT, told.output),
-                ("{entry}", told.entry.unwrap_or("main")),
+                (ENTRY, told.entry.unwrap_or("main")),
                 ("{stage}", facts.name),
                 ("{ending}", facts.ending.trim_start_matches('.')),
                 ("{profile}", profile(told.stage)),
             ];
-            let put = put.iter().fold(word.to_owned(), |word, (name, value)| word.replace(name, value));
-            arguments.push(put);
+            arguments.push(put(word, &values));
         }
         arguments
     }
+}
+
+/// The libraries in a folder: `lib*.so*`.
+fn libraries(folder: PathBuf) -> Vec<PathBuf> {
+    let all = fs::read_dir(folder).into_iter().flatten().flatten().filter(|entry| {
+        let name = entry.file_name();
+        let name = name.to_string_lossy();
+        name.starts_with("lib") && name.contains(".so")
+    });
+    all.map(|entry| entry.path()).collect()
+}
+
+/// A word with values in place of the names. What a value holds stays as it is.
+fn put(word: &str, values: &[(&str, &str)]) -> String {
+    let (mut made, mut rest) = (String::new(), word);
+    while let Some(start) = rest.find('{') {
+        let (before, behind) = rest.split_at(start);
+        made.push_str(before);
+        let named = values.iter().find(|(name, _)| behind.starts_with(name));
+        let (name, value) = named.copied().unwrap_or(("{", "{"));
+        made.push_str(value);
+        rest = &behind[name.len()..];
+    }
+    made + rest
 }
 
 /// A language as options name it.
@@ -356,4 +404,16 @@ fn divided(text: &str) -> Result<Vec<String>, String> {
     }
     words.extend(word);
     Ok(words)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_stands_for_something_is_replaced_once() {
+        let values = [(INPUT, "./{output}.hlsl"), (OUTPUT, "out.spv")];
+        assert_eq!(put("{input}", &values), "./{output}.hlsl");
+        assert_eq!(put("-a{b}{output}{", &values), "-a{b}out.spv{");
+    }
 }

@@ -116,34 +116,48 @@ fn included_by(stage: &SourceFile, mut read: impl FnMut(&FilePath, &str) -> Opti
 
 /// The names in a file's `#include` directives, and the files of the modules that Slang imports.
 fn named_in(file: &SourceFile) -> Vec<String> {
-    let text = without_comments(&file.text);
+    let text = without_comments(&joined(&file.text, false));
     if FileLanguage::of_file(file.path.path()) == Some(FileLanguage::Slang) {
-        return included_in(&text).into_iter().chain(imported_in(&text)).collect();
+        let quoted = quoted_imports(&text).into_iter().map(|(_, name)| name);
+        return included_in(&text).into_iter().chain(imported_in(&text)).chain(quoted).collect();
     }
     included_in(&text)
 }
 
-/// The files of the modules that a text in Slang imports or takes in. `a.b_c` is `a/b_c.slang` or `a/b-c.slang`.
+/// The words of Slang that name a module.
+pub(super) const IMPORTS: [&str; 4] = ["import", "__import", "__include", "implementing"];
+
+/// The files of the modules that a text in Slang imports or takes in without quotes. `a.b_c` is `a/b_c.slang` or `a/b-c.slang`.
 fn imported_in(text: &str) -> Vec<String> {
     let statements = text.split([';', '\n', '{', '}']).filter_map(|statement| {
         let mut words = statement.split_whitespace().skip_while(|word| ["public", "__exported"].contains(word));
-        let imports = ["import", "__import", "__include", "implementing"];
-        words.next().filter(|word| imports.contains(word))?;
-        words.next().map(str::to_owned)
+        words.next().filter(|word| IMPORTS.contains(word))?;
+        words.next().filter(|named| !named.starts_with('"'))
     });
-    let files = statements.flat_map(|named| match named.strip_prefix('"') {
-        Some(file) => {
-            let file = file.trim_end_matches('"');
-            vec![if file.contains('.') { file.to_owned() } else { format!("{file}.slang") }]
-        }
-        None => {
-            let path = named.replace('.', "/");
-            let mut files = vec![format!("{path}.slang"), format!("{}.slang", path.replace('_', "-"))];
-            files.dedup();
-            files
-        }
+    let files = statements.flat_map(|named| {
+        let path = named.replace('.', "/");
+        let mut files = vec![format!("{path}.slang"), format!("{}.slang", path.replace('_', "-"))];
+        files.dedup();
+        files
     });
     files.collect()
+}
+
+/// The files in quotes that a text in Slang imports or takes in, with their lines.
+pub(super) fn quoted_imports(text: &str) -> Vec<(usize, String)> {
+    let (mut all, mut line, mut counted) = (Vec::new(), 1, 0);
+    for (at, _) in text.match_indices('"') {
+        line += text[counted..at].matches('\n').count();
+        let before = text[counted..at].trim_end();
+        counted = at;
+        let word = before.rsplit(|letter: char| letter != '_' && !letter.is_ascii_alphanumeric()).next();
+        if !word.is_some_and(|word| IMPORTS.contains(&word)) {
+            continue;
+        }
+        let file = text[at + 1..].split(['"', '\n']).next().unwrap_or_default();
+        all.push((line, if file.contains('.') { file.to_owned() } else { format!("{file}.slang") }));
+    }
+    all
 }
 
 /// The names in the `#include` directives of a text without comments.
@@ -179,28 +193,114 @@ pub(super) fn words(text: &str) -> impl Iterator<Item = &str> {
     words.filter(|word| !word.is_empty())
 }
 
+/// What a reader of a text takes as literals, in which no comment begins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Literals {
+    None,
+    /// What stands in `"` on one line.
+    Strings,
+    /// The same with `\"` in it, and to the line's end where none closes it.
+    Escaped,
+    /// The same, and what stands in `'`.
+    WithLetters,
+}
+
+/// Where the ends of lines within a comment are put.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum CommentLines {
+    InPlace,
+    /// Behind the line in which the comment ends: a directive goes on behind a comment.
+    AtEnd,
+}
+
 /// A text with a blank in place of each comment. Lines keep their numbers.
 pub(super) fn without_comments(text: &str) -> String {
-    let mut kept = String::with_capacity(text.len());
-    let mut rest = text;
-    // One search for both kinds: a search for each would look through all that follows for the kind that comes late.
-    let start_of_comment = |text: &str| {
-        let mut slashes = text.match_indices('/').map(|(at, _)| at);
-        slashes.find(|at| matches!(text.as_bytes().get(at + 1), Some(b'/' | b'*')))
+    without_comments_as(text, Literals::Strings, CommentLines::InPlace)
+}
+
+/// The same as one of several readers sees it.
+pub(super) fn without_comments_as(text: &str, literals: Literals, lines: CommentLines) -> String {
+    let quotes: &[char] = match literals {
+        Literals::None => &[],
+        Literals::Strings | Literals::Escaped => &['"'],
+        Literals::WithLetters => &['"', '\''],
     };
-    while let Some(start) = start_of_comment(rest) {
-        let (before, comment) = rest.split_at(start);
-        kept.extend([before, " "]);
-        let (_, inside) = comment.split_at(2);
-        let end = match comment.starts_with("//") {
+    let mut kept = String::with_capacity(text.len());
+    let (mut rest, mut owed) = (text, 0);
+    // The ends of lines that are owed come behind the next one.
+    let keep = |kept: &mut String, part: &str, owed: &mut usize| match part.find('\n').filter(|_| *owed > 0) {
+        Some(end) => {
+            kept.push_str(&part[..end]);
+            kept.extend(std::iter::repeat_n('\n', std::mem::take(owed)));
+            kept.push_str(&part[end..]);
+        }
+        None => kept.push_str(part),
+    };
+    while let Some(start) = rest.find(|letter| letter == '/' || quotes.contains(&letter)) {
+        let (before, behind) = rest.split_at(start);
+        keep(&mut kept, before, &mut owed);
+        if !behind.starts_with("//") && !behind.starts_with("/*") {
+            let length = if behind.starts_with('/') { 1 } else { literal(behind, literals) };
+            let (literal, behind) = behind.split_at(length);
+            kept.push_str(literal);
+            rest = behind;
+            continue;
+        }
+        kept.push(' ');
+        let (_, inside) = behind.split_at(2);
+        let end = match behind.starts_with("//") {
             true => inside.find('\n'),
             false => inside.find("*/").map(|end| end + 2),
         };
         let (inside, behind) = inside.split_at(end.unwrap_or(inside.len()));
-        kept.extend(inside.matches('\n'));
+        let ends = inside.matches('\n');
+        match lines {
+            CommentLines::InPlace => kept.extend(ends),
+            CommentLines::AtEnd => owed += ends.count(),
+        }
         rest = behind;
     }
-    kept + rest
+    keep(&mut kept, rest, &mut owed);
+    kept.extend(std::iter::repeat_n('\n', owed));
+    kept
+}
+
+/// The length of the literal with which a text begins; that of its quote alone where it is none.
+fn literal(text: &str, literals: Literals) -> usize {
+    let line = text.find('\n').map_or(text, |end| &text[..end]);
+    let quote = text.as_bytes().first();
+    if literals == Literals::Strings {
+        return line[1..].find('"').map_or(1, |end| end + 2);
+    }
+    let mut escaped = false;
+    let end = line.bytes().enumerate().skip(1).find(|(_, byte)| {
+        let closes = !escaped && Some(byte) == quote;
+        escaped = !escaped && *byte == b'\\';
+        closes
+    });
+    end.map_or(line.len(), |(end, _)| end + 1)
+}
+
+/// A text whose lines go on where they end with a backslash, or with one and `blanks`. Lines that begin behind keep their numbers.
+pub(super) fn joined(text: &str, blanks: bool) -> String {
+    let mut kept = String::with_capacity(text.len());
+    let mut owed = 0;
+    for line in text.split_inclusive('\n') {
+        let whole = line.strip_suffix('\n').unwrap_or(line);
+        let whole = whole.strip_suffix('\r').unwrap_or(whole);
+        let whole = if blanks { whole.trim_end() } else { whole };
+        match whole.strip_suffix('\\') {
+            Some(begun) => {
+                kept.push_str(begun);
+                owed += 1;
+            }
+            None => {
+                kept.push_str(line);
+                kept.extend(std::iter::repeat_n('\n', std::mem::take(&mut owed)));
+            }
+        }
+    }
+    kept
 }
 
 #[cfg(test)]
@@ -250,5 +350,9 @@ mod tests {
     fn a_comment_of_several_lines_leaves_the_numbers_of_lines() {
         assert_eq!(without_comments("a /* b\nc */ d // e\nf"), "a  \n d  \nf");
         assert_eq!(without_comments("a /* b\n"), "a  \n");
+        assert_eq!(without_comments("\"/*\" a // \"\n\"//\""), "\"/*\" a  \n\"//\"");
+        let at_end = without_comments_as("# /* b\n*/ c\nd", Literals::Strings, CommentLines::AtEnd);
+        assert_eq!(at_end, "#   c\n\nd");
+        assert_eq!(joined("a\\\nb\nc", false), "ab\n\nc");
     }
 }

@@ -1,5 +1,7 @@
 //! Shaders found, compiled and reflected. No device is needed.
 
+#[cfg(unix)]
+mod commands;
 mod coverage;
 mod exact;
 mod files;
