@@ -6,7 +6,7 @@ use super::shader_compilers::{CompilerCommand, StageToCompile};
 use crate::base::{Cancel, in_words, is_crash};
 use crate::process::{Bounds, CompileJob, GivenUp, LARGEST_SPIRV, run};
 use framewright_graph::base::{FilePath, OutsideChoice};
-use framewright_graph::shader::{FileLanguage, ShaderProblem};
+use framewright_graph::shader::{FileLanguage, ShaderMessage, ShaderProblem};
 use std::path::{Component, Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
@@ -36,6 +36,12 @@ pub(super) fn compile(
     cancel: &Cancel,
 ) -> Result<Vec<u32>, ShaderProblem> {
     let Some(program) = command.file() else { return Err(not_there(command)) };
+    // It becomes an argument: a file must not make an option of it.
+    let is_name = |entry: &str| entry.chars().all(|it| it == '_' || it.is_alphanumeric());
+    if let Some(entry) = job.entry.as_deref().filter(|entry| !is_name(entry)) {
+        let text = format!("{}: `{}` is no name of an entry point", source.shown, entry.escape_debug());
+        return Err(ShaderProblem::DoesNotCompile { messages: vec![ShaderMessage { text, quote: None, limit: None }] });
+    }
     let machine =
         |error: io::Error| ShaderProblem::Machine { what: format!("no folder can be made for its compiler: {error}") };
     let folder = tempfile::Builder::new().prefix("framewright-shader-").tempdir().map_err(machine)?;

@@ -57,7 +57,8 @@ const STAND_INS: [&str; 8] = [INPUT, OUTPUT, FOLDER, MACRO, ENTRY, "{stage}", "{
 /// What looks as if it stood for something in an argument.
 fn stand_ins(word: &str) -> impl Iterator<Item = &str> {
     word.match_indices('{').filter_map(|(start, _)| {
-        let end = start + word[start..].find('}')? + 1;
+        // A shell's variable is none of ours.
+        let end = start + word[start..].find('}').filter(|_| !word[..start].ends_with('$'))? + 1;
         word[start + 1..end - 1].chars().all(|it| it.is_ascii_lowercase()).then(|| &word[start..end])
     })
 }

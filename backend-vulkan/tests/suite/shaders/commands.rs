@@ -39,6 +39,14 @@ fn computed(library: &mut ShaderLibrary, name: &str) -> Result<ShaderInterface, 
 }
 
 #[test]
+fn what_stands_for_nothing_in_a_command_is_said() {
+    let set = |command: &str| ShaderCompilers::default().set(FileLanguage::Hlsl, command).map_err(|it| it.to_string());
+    let said = set("tool {inptu} {output}").expect_err("a misspelt word");
+    assert!(said.starts_with("`{inptu}` stands for nothing: there are {input}, {output}"), "{said}");
+    assert_eq!(set("sh -c \"a=${b}\" {input} {output}"), Ok(()));
+}
+
+#[test]
 fn no_command_is_run_for_a_shader_that_asks_for_files_elsewhere() {
     let folder = folder();
     let ran = folder.path().join("ran");
@@ -55,6 +63,9 @@ fn no_command_is_run_for_a_shader_that_asks_for_files_elsewhere() {
 #[test]
 fn a_file_is_never_an_option() {
     let folder = folder();
+    let mut library = by_shell(folder.path(), "cp MADE $1");
+    let Err(ShaderProblem::DoesNotCompile { messages }) = computed(&mut library, "post.wgsl:-Fo/x") else { panic!() };
+    assert!(messages[0].text.ends_with("post.wgsl: `-Fo/x` is no name of an entry point"), "{}", messages[0].text);
     let mut library = by_shell(folder.path(), "case $0 in ./*) cp MADE $1;; *) exit 1;; esac");
     computed(&mut library, "-Fo/post.wgsl:clear").expect("a path that begins with a dot");
 }
