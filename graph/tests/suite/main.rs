@@ -5,6 +5,7 @@ mod alpha_to_coverage;
 mod both_eyes;
 mod chosen_formats;
 mod codes;
+mod compile_graphs;
 mod compile_raster;
 mod compressed;
 mod custom_passes;
