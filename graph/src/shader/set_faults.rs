@@ -22,6 +22,9 @@ pub struct SetFault {
     pub message: String,
 }
 
+/// Whether a binding counts.
+type Counts<'a> = &'a dyn Fn(&ProgramBinding) -> bool;
+
 impl DrawInterfaces {
     /// All that is wrong with the sets of the program: what not every device can bind, or where a draw source has its own.
     #[must_use]
@@ -66,12 +69,12 @@ impl DrawInterfaces {
     fn too_many(&self) -> Option<SetFault> {
         use DescriptorType as Is;
         let all = || self.sets().iter().flat_map(|set| &set.bindings);
-        let count = |counts: &dyn Fn(&ProgramBinding) -> bool| {
+        let count = |counts: Counts<'_>| {
             all().filter(|it| counts(it)).map(|it| u64::from(it.count)).fold(0, u64::saturating_add)
         };
         let updated = |it: &ProgramBinding| it.flags.update_after_bind;
         let uniform = |it: &ProgramBinding| it.kind == Is::UniformBuffer;
-        let rules: [(&str, &dyn Fn(&ProgramBinding) -> bool, u64); 4] = [
+        let rules: [(&str, Counts<'_>, u64); 4] = [
             ("uniform blocks with dynamic offsets", &|it| it.kind == Is::UniformBufferDynamic, 8),
             ("storage blocks with dynamic offsets", &|it| it.kind == Is::StorageBufferDynamic, 4),
             (
