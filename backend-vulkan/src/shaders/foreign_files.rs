@@ -143,7 +143,7 @@ fn in_directive(line: &str, language: Option<FileLanguage>) -> Option<Asked> {
     let directive = directive(line)?;
     let name = words(directive).next().filter(|name| directive.starts_with(*name))?;
     let includes = ["include", "include_next", "__include_macros"].contains(&name);
-    if !includes && !(name == "import" && language == Some(FileLanguage::Hlsl)) {
+    if !(includes || name == "import" && language == Some(FileLanguage::Hlsl)) {
         return None;
     }
     let rest = directive[name.len()..].trim_start();
