@@ -66,7 +66,7 @@ fn a_mistake_is_shown_at_its_line_of_the_file_that_has_it() {
     place.run(&["check", "p.ron"]).exits(0);
     place.file("part/light.hlsli", "float lit() {\n    return brightness; }\n");
     place.run(&["check", "p.ron"]).exits(1).mentions("part/light.hlsli:2");
-    place.file("post.hlsl", &including.replace("part/light", "part/dark"));
+    place.file("post.hlsl", including.replace("part/light", "part/dark"));
     place.run(&["check", "p.ron"]).exits(1).mentions("post.hlsl:1").mentions("part/dark.hlsli");
 }
 

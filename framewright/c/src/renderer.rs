@@ -225,7 +225,7 @@ pub unsafe extern "C" fn framewright_renderer_open(
             (options.draws, options.set_layouts) = program_sets(given.sets, given.set_count, options.draws)?;
             options.files.extensions = given.extensions.texts("extensions")?.into_iter().map(Into::into).collect();
             for compiler in given.shader_compilers.texts("shader_compilers")? {
-                let named = options.shader_compilers.set_named(&compiler);
+                let named = options.shader_compilers.set_named(compiler);
                 named.map_err(|bad| Problem::Misuse(format!("`shader_compilers`: {bad}")))?;
             }
         }
