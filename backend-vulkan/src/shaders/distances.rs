@@ -2,6 +2,7 @@
 
 use super::module::IndexedModule;
 use super::text::RefusedStage;
+use framewright_graph::device::{Need, NeedKind};
 use rspirv::dr::{Instruction, Operand};
 use rspirv::spirv::{BuiltIn, Capability, Decoration, Op};
 
@@ -22,6 +23,11 @@ pub(super) fn check(module: &IndexedModule<'_>) -> Result<(), RefusedStage> {
         return Err(RefusedStage::beginning(&["gl_ClipDistance", "gl_CullDistance"], what));
     }
     Ok(())
+}
+
+/// Whether it is the need of a stage with clip or cull distances.
+pub(super) fn is_need(need: &Need) -> bool {
+    matches!(need.kind, NeedKind::Feature { name: "shaderClipDistance" | "shaderCullDistance", .. })
 }
 
 /// The length of the longest array that is this built-in, of a variable's own or a member's.

@@ -5,6 +5,7 @@ use super::colors;
 use super::compilers::Compilers;
 use super::constants;
 use super::coverage::{DISCARDS, MASKS_SAMPLES};
+use super::distances;
 use super::eyes::{self, BothEyes};
 use super::file_stages::FileStage;
 use super::files::{ShaderFiles, SourceFile};
@@ -25,7 +26,7 @@ use framewright_graph::base::{FilePath, Root};
 use framewright_graph::device::{Need, NeedKind};
 use framewright_graph::frame::{Draw, EyeForm};
 use framewright_graph::shader::{
-    Binding, ConstantValue, DrawInterface, DrawInterfaces, DrawKind, EyeSource, PASS_SET, ProgramSet, ShaderInterface,
+    Binding, ConstantValue, DrawInterface, DrawInterfaces, DrawKind, PASS_SET, ProgramSet, ShaderInterface,
     ShaderInterfaces, ShaderName, ShaderProblem, StageName, UnbindableResource, Variant,
 };
 use std::collections::HashMap;
@@ -200,7 +201,8 @@ impl ShaderLibrary {
                 interface.take_names(&variant.given);
             }
             // One driver takes no notice of clip distances where there is no fragment stage: docs/drivers.md.
-            let cut = both_eyes(variant).is_some_and(BothEyes::cuts_at_seam) || interface.needs.iter().any(is_distance);
+            let cut = both_eyes(variant).is_some_and(BothEyes::cuts_at_seam)
+                || interface.needs.iter().any(distances::is_need);
             let fragment = cut.then(|| eyes::empty_fragment_stage().into());
             return Ok(CompiledShader { vertex: spirv, fragment, interface, usual_vertices, input_attachments });
         }
@@ -311,13 +313,9 @@ impl ShaderLibrary {
         if let StageName::File { file, entry } = name {
             let wanted = FileStage { file, entry: entry.as_deref(), stage, macros, constants };
             let spirv = wanted.compiled(source, compilers, files)?;
-            let counts = both.is_some_and(BothEyes::counts_instances) && stage.facts().places_vertices;
-            let halves_or_both =
-                |both: BothEyes| both.form == EyeForm::Halves || !matches!(both.source, EyeSource::One(_));
-            let asks = |word: &str| OF_ONE_EYE.contains(&word);
-            let unlike = both.is_some_and(halves_or_both) && text::place(files, found, asks).is_some();
-            if counts || unlike || both.is_some() && !in_layers.is_empty() {
-                return Err(unsupported(NOT_FOR_BOTH_EYES.to_owned().into()));
+            let asks = || text::place(files, found, |word| eyes::OF_ONE_EYE.contains(&word)).is_some();
+            if both.is_some_and(|both| !in_layers.is_empty() || both.refuses_files(stage, asks)) {
+                return Err(unsupported(eyes::NOT_FOR_BOTH_EYES.to_owned().into()));
             }
             let verdict = judge(&spirv);
             return Ok(CompilerAnswer { spirv, verdict });
@@ -326,7 +324,7 @@ impl ShaderLibrary {
         if both.is_some_and(BothEyes::cuts_at_seam)
             && text::place(files, found, |word| word == "gl_ClipDistance").is_some()
         {
-            return Err(unsupported(RefusedStage::beginning(&["gl_ClipDistance"], NOT_AT_SEAM.to_owned())));
+            return Err(unsupported(RefusedStage::beginning(&["gl_ClipDistance"], eyes::NOT_AT_SEAM.to_owned())));
         }
         let text = both.map_or_else(|| found.text.clone(), |both| both.around(&found.text, stage));
         let job =
@@ -344,11 +342,10 @@ impl ShaderLibrary {
         if stage.facts().has_workgroups {
             sized(files, found).map_err(unsupported)?;
         }
-        let CompilerAnswer { spirv, verdict } = answer;
         if constants.is_empty() {
-            return Ok(CompilerAnswer { spirv, verdict });
+            return Ok(answer);
         }
-        let spirv = constants::with_values(spirv, constants).map_err(|what| unsupported(what.into()))?;
+        let spirv = constants::with_values(answer.spirv, constants).map_err(|what| unsupported(what.into()))?;
         let verdict = judge(&spirv);
         Ok(CompilerAnswer { spirv, verdict })
     }
@@ -453,22 +450,6 @@ impl ShaderInterfaces for ShaderLibrary {
     fn custom_passes(&self) -> Option<Vec<Arc<str>>> {
         self.draws.custom_passes().map(<[Arc<str>]>::to_vec)
     }
-}
-
-/// Words of `include/stereo.hlsl` and `include/rotation.hlsl` that know one eye's picture alone.
-const OF_ONE_EYE: [&str; 5] = ["eye_index", "scale_offset", "screen_uv", "screen_pos", "frag_coord"];
-
-/// Why SPIR-V isn't used in a draw for both eyes.
-const NOT_FOR_BOTH_EYES: &str = "it is drawn for both eyes at once, and only GLSL is told which eye it draws for: draw each eye by \
-    itself (`multi-pass`), or write it in GLSL";
-
-/// Why a shader's own clip distances aren't used in a draw for both halves.
-const NOT_AT_SEAM: &str = "it sets clip distances, and a draw for both halves of a picture cuts at their seam by one of its own: choose \
-    `multi-pass`, or eyes in layers";
-
-/// Whether it is the need of a stage with clip or cull distances.
-fn is_distance(need: &Need) -> bool {
-    matches!(need.kind, NeedKind::Feature { name: "shaderClipDistance" | "shaderCullDistance", .. })
 }
 
 /// Whether push constants tell a stage which parts of images are in use.

@@ -23,7 +23,7 @@ impl ColorComponents {
     /// Red, green, blue and alpha.
     pub const RGBA: ColorComponents = ColorComponents::all();
 
-    /// The channels that a format of so many components has.
+    /// The first `components` channels, in the order red, green, blue, alpha: those of a format with as many components.
     #[must_use]
     pub const fn first(components: u32) -> ColorComponents {
         match components {
@@ -33,12 +33,6 @@ impl ColorComponents {
             3 => ColorComponents::R.union(ColorComponents::G).union(ColorComponents::B),
             _ => ColorComponents::RGBA,
         }
-    }
-
-    /// Whether a list of them, one for each target, says nothing.
-    #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde hands a field over so")]
-    pub(crate) fn are_all(masks: &[ColorComponents]) -> bool {
-        masks.iter().all(|mask| *mask == ColorComponents::RGBA)
     }
 }
 

@@ -86,7 +86,7 @@ impl StoredTexels {
     }
 }
 
-/// The bytes of 1 in a component of so many bytes.
+/// The value 1, as a component of `bytes` bytes stores it.
 fn one(numeric: Numeric, bytes: usize) -> [u8; 4] {
     match (numeric, bytes) {
         (Numeric::Unorm | Numeric::Srgb, _) => [0xFF; 4],
@@ -99,7 +99,7 @@ fn one(numeric: Numeric, bytes: usize) -> [u8; 4] {
 }
 
 impl Container {
-    /// Whether such an image can be, and all of it lies in a file of so many bytes.
+    /// Checks what the header says: images of this size are allowed, and the file, which has `bytes` bytes, holds all texels.
     pub(super) fn check(&self, bytes: u64) -> Result<(), TextureProblem> {
         let [width, height, depth] = self.extent;
         let texels = self.extent.iter().fold(u64::from(self.layers), |all, side| all.saturating_mul((*side).into()));

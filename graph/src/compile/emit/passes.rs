@@ -4,8 +4,8 @@ use super::stage_results::{StageResults, cause, frame_work};
 use crate::compile::adapt::has_samples;
 use crate::compile::model::{Kind, Op, OpKind, ResolveShader, Role, Use};
 use crate::frame::{
-    Access as FrameAccess, Blend, DepthTarget, Draw, Groups, ParamValue, Pass as FramePass, RasterState, SampledImage,
-    ViewIndex, Work as FrameWork,
+    Access as FrameAccess, Blend, ColorTarget, DepthTarget, Draw, Groups, ParamValue, Pass as FramePass, RasterState,
+    SampledImage, ViewIndex, Work as FrameWork,
 };
 use crate::plan::{
     Access, Binding, BindingKind, BufferAccess, BufferId, Cause, DepthState, Fill, ImageId, Param, Pass, Side,
@@ -141,16 +141,15 @@ pub(super) fn pass(results: &StageResults<'_>, number: u32) -> Pass {
         planned.merged = results.scoped.merged(results.frame, results.adapted, number);
     }
     if !declared.params.is_empty() {
-        let params = declared.params.iter();
-        planned.params = params.map(|(name, value)| Param { name: name.clone(), value: value.clone() }).collect();
+        planned.params = named(&declared.params);
     }
-    planned.constants = constants(declared);
+    planned.constants = named(&declared.constants);
     planned
 }
 
-/// The values of the shader's specialization constants.
-fn constants(declared: &FramePass) -> Vec<Param> {
-    declared.constants.iter().map(|(name, value)| Param { name: name.clone(), value: value.clone() }).collect()
+/// Values by the shader's names.
+fn named(values: &[(Arc<str>, ParamValue)]) -> Vec<Param> {
+    values.iter().map(|(name, value)| Param { name: name.clone(), value: value.clone() }).collect()
 }
 
 /// The view that a pass is for, if the frame has any.
@@ -177,12 +176,8 @@ fn depth_only(results: &StageResults<'_>, number: u32, declared: &FramePass, nam
         view: view(results, declared.view),
         blend: Vec::new(),
         write_masks: Vec::new(),
-        params: declared
-            .params
-            .iter()
-            .map(|(name, value)| Param { name: name.clone(), value: value.clone() })
-            .collect(),
-        constants: constants(declared),
+        params: named(&declared.params),
+        constants: named(&declared.constants),
         accesses: uses.iter().map(|used| access(results, used, None)).collect(),
         merged: results.scoped.merged(results.frame, results.adapted, number),
         ..planned
@@ -243,13 +238,14 @@ fn drawn(results: &StageResults<'_>, planned: &mut Pass, declared: &FramePass, u
 
 /// The channels that a pass writes of each target; none if it writes all that each has.
 fn write_masks(results: &StageResults<'_>, declared: &FramePass) -> Vec<ColorComponents> {
-    let written = declared.color.iter().map(|target| {
+    let written = |target: &ColorTarget| {
         let components = results.frame.images[target.image.0 as usize].format.components();
         let whole = target.write_mask.contains(ColorComponents::first(components));
         if whole { ColorComponents::RGBA } else { target.write_mask }
-    });
-    let written: Vec<ColorComponents> = written.collect();
-    if ColorComponents::are_all(&written) { Vec::new() } else { written }
+    };
+    let mut partial = declared.color.iter().map(written).filter(|mask| *mask != ColorComponents::RGBA);
+    // Most passes write all, and need no list.
+    if partial.next().is_none() { Vec::new() } else { declared.color.iter().map(written).collect() }
 }
 
 /// A pass without accesses.

@@ -3,7 +3,8 @@
 //! A format that the pipeline chose by a policy is replaced by the format that it would have without the policy. Any other
 //! format is replaced only if nothing outside of the frame sees the image, and no shader or program is told the layout of
 //! its texels. So imported images, outputs and storage images keep their formats, and so do images that are copied to or
-//! from buffers or by custom passes. A texture in a compressed format is decoded when it is loaded. An output that is encoded for HDR10 may have 16 bits instead of 10.
+//! from buffers or by custom passes. A texture in a compressed format is decoded when it is loaded. An output that is encoded
+//! for HDR10 may have 16 bits instead of 10.
 
 use super::needs::{Needs, Supports};
 use crate::device::Profile;
