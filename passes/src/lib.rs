@@ -13,6 +13,7 @@
 mod decoder_words;
 pub mod draw;
 pub mod facts;
+#[cfg(feature = "pictures")]
 pub mod open_exr;
 pub mod scene;
 pub mod shipped;

@@ -187,16 +187,24 @@ pub enum TextureProblem {
         /// Why not.
         why: &'static str,
     },
+    /// It is of a kind whose reader was left out of this program.
+    #[error("is {kind}, and this program was built without the feature `{feature}` of Framewright, which reads it")]
+    LeftOut {
+        /// The kind of the file, in words.
+        kind: &'static str,
+        /// The feature.
+        feature: &'static str,
+    },
     /// No provider of textures was given.
     #[error("can't be read: no textures are provided here")]
     NotProvided,
 }
 
 impl TextureProblem {
-    /// Whether nothing is wrong with the file: the machine doesn't let it be read.
+    /// Whether nothing is wrong with the file: the machine doesn't let it be read, or this program has no reader for it.
     #[must_use]
     pub fn is_of_machine(&self) -> bool {
-        matches!(self, TextureProblem::Machine { .. })
+        matches!(self, TextureProblem::Machine { .. } | TextureProblem::LeftOut { .. })
     }
 }
 

@@ -1,6 +1,6 @@
-//! Defaults of a scene: a clear day, a white material.
+//! Defaults of a scene: a clear day.
 
-use super::model::{AlphaMode, Material, Sky, Sun};
+use super::model::{Sky, Sun};
 
 /// From the front left, high above, warm.
 pub(crate) const SUN: Sun =
@@ -11,15 +11,3 @@ pub(crate) const AMBIENT: [f32; 3] = [0.24, 0.26, 0.3];
 
 /// Pale at the horizon.
 pub(crate) const SKY: Sky = Sky { zenith: [0.13, 0.28, 0.56], horizon: [0.58, 0.68, 0.78], ground: [0.22, 0.21, 0.2] };
-
-/// White, opaque, one-sided.
-pub(crate) fn material() -> Material {
-    Material {
-        name: "default".into(),
-        base_color: [1.0; 4],
-        base_color_texture: None,
-        emissive: [0.0; 3],
-        alpha: AlphaMode::Opaque,
-        double_sided: false,
-    }
-}

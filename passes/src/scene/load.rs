@@ -1,8 +1,12 @@
 //! Scenes from files.
 
 use super::model::Scene;
-use super::{gltf, limits, text};
-use framewright_graph::base::{Diagnostic, NoText, ReadFiles, Root, Sources, is_of_machine, render, text_of};
+#[cfg(feature = "gltf")]
+use super::gltf;
+use super::{limits, text};
+#[cfg(feature = "gltf")]
+use framewright_graph::base::Root;
+use framewright_graph::base::{Diagnostic, NoText, ReadFiles, Sources, is_of_machine, render, text_of};
 use std::path::{Path, PathBuf};
 
 /// Why a file is no scene. The sentences name the file as it was given, escaped.
@@ -46,7 +50,15 @@ pub enum SceneError {
         /// At least one.
         mistakes: Vec<Diagnostic>,
     },
+    /// A `.glb` or `.gltf` file, and this program was built without the feature `gltf`.
+    #[cfg(not(feature = "gltf"))]
+    #[error("{}: this program reads no glTF: build it with the feature `gltf` of Framewright", shown(path))]
+    LeftOut {
+        /// The file.
+        path: PathBuf,
+    },
     /// A `.glb` or `.gltf` file with a mistake.
+    #[cfg(feature = "gltf")]
     #[error("{}: {error}", shown(path))]
     Gltf {
         /// The file.
@@ -62,6 +74,7 @@ impl SceneError {
     pub fn is_of_machine(&self) -> bool {
         match self {
             SceneError::Unreadable { source, .. } => is_of_machine(source),
+            #[cfg(feature = "gltf")]
             SceneError::Gltf { error, .. } => error.is_of_machine(),
             _ => false,
         }
@@ -85,6 +98,9 @@ pub fn load_recorded(path: &Path, read: &ReadFiles) -> Result<Scene, SceneError>
     let bytes = |limit| bytes(path, limit, read);
     let extension = path.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase);
     match extension.as_deref() {
+        #[cfg(not(feature = "gltf"))]
+        Some("glb" | "gltf") => Err(SceneError::LeftOut { path: path.into() }),
+        #[cfg(feature = "gltf")]
         Some(ending @ ("glb" | "gltf")) => {
             let beside = Root::new(path.parent().unwrap_or(Path::new("")).to_owned());
             let beside = beside.recorded(read, "a file of the scene");

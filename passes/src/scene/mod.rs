@@ -17,11 +17,11 @@
 
 mod defaults;
 mod exposure;
+#[cfg(feature = "gltf")]
 pub mod gltf;
 pub mod limits;
 mod load;
 mod model;
-mod notes;
 mod pattern;
 mod shapes;
 pub mod text;

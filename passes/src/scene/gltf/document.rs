@@ -3,7 +3,7 @@
 use super::extensions::{self, Extensions};
 use super::json;
 use super::problem::{GltfError, Problem};
-use crate::scene::notes::Notes;
+use super::notes::Notes;
 use framewright_graph::base::{NoText, text_of};
 use serde::Deserialize;
 use serde::de::IgnoredAny;

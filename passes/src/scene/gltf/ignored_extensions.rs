@@ -1,7 +1,7 @@
 //! Notes about extensions and material factors that are ignored: one for each, with the elements that have it.
 
 use super::document::Document;
-use crate::scene::notes::Notes;
+use super::notes::Notes;
 
 /// Adds a note for each extension that isn't known, and for each factor that no shader reads.
 pub(super) fn note(document: &Document, notes: &mut Notes) {

@@ -6,10 +6,22 @@ use super::picture::Textures;
 use super::problem::{GltfError, Problem, leave_out};
 use crate::scene::limits;
 use crate::scene::model::{AlphaMode, Material};
-use crate::scene::notes::Notes;
+use super::notes::Notes;
 
 /// The range of most factors, and its words.
 const UP_TO_1: (f64, &str) = (1.0, "0 to 1");
+
+/// The material of what names none: white, opaque, one-sided.
+pub(super) fn default() -> Material {
+    Material {
+        name: "default".into(),
+        base_color: [1.0; 4],
+        base_color_texture: None,
+        emissive: [0.0; 3],
+        alpha: AlphaMode::Opaque,
+        double_sided: false,
+    }
+}
 
 /// Reads a material. A mistake in it leaves out or changes a part of it.
 ///

@@ -30,6 +30,7 @@ mod json;
 mod lights;
 mod material;
 mod nodes;
+mod notes;
 mod picture;
 mod primitive;
 mod problem;
@@ -38,13 +39,13 @@ pub use problem::{GltfError, Problem};
 
 use super::exposure::{self, InventedLight};
 use super::model::{Bounds, Camera, Material, Mesh, Movement, NamedCamera, Object, Scene};
-use super::notes::Notes;
 use super::{defaults, limits};
 use accessor::Data;
 use document::{Document, follow};
 use framewright_graph::base::Root;
 use glam::{DMat4, DVec3};
 use nodes::PlacedNode;
+use notes::Notes;
 use picture::Textures;
 use problem::{at_most_in_all, leave_out, within};
 use std::ops::Bound;
@@ -80,7 +81,7 @@ fn scene(json: &[u8], binary: Option<&[u8]>, beside: Option<&Root>) -> Result<Sc
         let at = format!("material {number}");
         materials.push(match material {
             Some(material) => material::read(&data, material, &at, &mut textures, &mut notes)?,
-            None => defaults::material(),
+            None => material::default(),
         });
     }
     let (meshes, groups) = meshes(&data, &mut materials, &mut notes)?;
@@ -167,7 +168,7 @@ fn meshes(data: &Data<'_>, materials: &mut Vec<Material>, notes: &mut Notes) -> 
             });
             let material = material.unwrap_or_else(|| {
                 *default_material.get_or_insert_with(|| {
-                    materials.push(defaults::material());
+                    materials.push(material::default());
                     materials.len() - 1
                 })
             });

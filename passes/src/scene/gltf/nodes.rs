@@ -2,7 +2,7 @@
 
 use super::document::{Document, Node, follow};
 use super::problem::{GltfError, Problem};
-use crate::scene::notes::Notes;
+use super::notes::Notes;
 use glam::{DMat4, DQuat, DVec3};
 
 /// A node with its place in the world.

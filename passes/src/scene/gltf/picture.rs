@@ -6,7 +6,7 @@ use super::problem::{GltfError, Problem, at_most, at_most_in_all};
 use crate::decoder_words;
 use crate::scene::limits;
 use crate::scene::model::{Sampler, Texture, Wrap};
-use crate::scene::notes::Notes;
+use super::notes::Notes;
 use framewright_graph::vulkan::Filter;
 use image::{DynamicImage, ImageFormat, ImageReader, Limits};
 use std::borrow::Cow;

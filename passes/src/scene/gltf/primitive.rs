@@ -4,8 +4,9 @@ use super::accessor::{Data, TEXTURE_COORDINATES};
 use super::document::{Document, Primitive};
 use super::problem::{GltfError, Problem, at_most_in_all};
 use crate::scene::limits;
-use crate::scene::model::{Bounds, Mesh, flat_shaded};
-use crate::scene::notes::Notes;
+use crate::scene::model::{Bounds, Mesh};
+use glam::Vec3;
+use super::notes::Notes;
 
 /// Vertices and indices of all primitives so far.
 #[derive(Debug, Default)]
@@ -77,6 +78,24 @@ pub(super) fn read(
         Some(normals) => Mesh { positions, normals, uvs, indices, bounds },
         None => flat_shaded(&positions, &uvs, &indices, bounds),
     }))
+}
+
+/// A mesh whose triangles share no vertices, each with the normal of its plane: how glTF wants meshes without normals
+/// (glTF 2.0, section 3.7.2.1). A triangle without area has no plane and gets the normal +y; it can't be seen.
+fn flat_shaded(positions: &[[f32; 3]], uvs: &[[f32; 2]], indices: &[u32], bounds: Bounds) -> Mesh {
+    let corner = |index: u32| positions[index as usize];
+    let normals = indices.as_chunks::<3>().0.iter().flat_map(|triangle| {
+        let [a, b, c] = triangle.map(|index| Vec3::from(corner(index)).as_dvec3());
+        let normal = (b - a).cross(c - a).try_normalize().map_or(Vec3::Y, |normal| normal.as_vec3());
+        [normal.to_array(); 3]
+    });
+    Mesh {
+        normals: normals.collect(),
+        positions: indices.iter().map(|index| corner(*index)).collect(),
+        uvs: indices.iter().map(|index| uvs[*index as usize]).collect(),
+        indices: (0..indices.len() as u32).collect(),
+        bounds,
+    }
 }
 
 /// How corners make triangles.

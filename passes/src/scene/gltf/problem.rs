@@ -1,6 +1,6 @@
 //! Mistakes of glTF files.
 
-use crate::scene::notes::Notes;
+use super::notes::Notes;
 use framewright_graph::base::NoFile;
 use std::fmt;
 use std::ops::RangeBounds;

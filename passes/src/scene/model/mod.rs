@@ -14,7 +14,6 @@ pub use camera::{Camera, NamedCamera};
 pub use light::{PointLight, Sky, Sun};
 pub use material::{AlphaMode, Material, Sampler, Texture, Wrap};
 pub use mesh::Mesh;
-pub(crate) use mesh::flat_shaded;
 pub use movement::{FRAME_SECONDS, Movement};
 pub use object::Object;
 pub use scene::Scene;

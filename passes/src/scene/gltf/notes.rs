@@ -1,6 +1,6 @@
 //! Notes about what of a file isn't drawn, and about mistakes in it that were passed over.
 
-use super::limits;
+use crate::scene::limits;
 
 /// Sentences without final stop.
 #[derive(Debug, Default)]

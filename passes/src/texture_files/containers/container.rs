@@ -1,7 +1,8 @@
 //! Texture files, whose levels and layers are stored as an image's: what they hold, and where it lies.
 
+use super::super::limits::{MOST_BYTES, MOST_SIDE, MOST_TEXELS};
+use super::super::words::{damaged, parts};
 use super::decode;
-use super::limits::{MOST_BYTES, MOST_SIDE, MOST_TEXELS, damaged};
 use flate2::read::ZlibDecoder;
 use framewright_graph::frame::{ColorSpace, TextureFile, TextureInfo, TextureProblem, WantedTexels};
 use framewright_graph::vulkan::{Format, Numeric};
@@ -82,7 +83,12 @@ impl StoredTexels {
         let Some(texel) = self.narrow.and_then(|texel| usize::try_from(texel).ok()) else { return bytes };
         let component = self.format.texel_bytes() as usize / 4;
         let one = one(self.format.numeric(), component);
-        bytes.chunks_exact(texel).flat_map(|texel| [&texel[..3 * component], &one[..component]].concat()).collect()
+        let mut wide = Vec::with_capacity(bytes.len() / texel * 4 * component);
+        for texel in bytes.chunks_exact(texel) {
+            wide.extend_from_slice(&texel[..3 * component]);
+            wide.extend_from_slice(&one[..component]);
+        }
+        wide
     }
 }
 
@@ -233,9 +239,4 @@ fn unpacked(decoder: impl Read, expected: u64) -> Result<Vec<u8>, TextureProblem
     let mut bytes = Vec::new();
     decoder.take(expected.saturating_add(1)).read_to_end(&mut bytes).map_err(damaged)?;
     Ok(bytes)
-}
-
-/// What an image has, in words.
-pub(super) fn parts([width, height, depth]: [u32; 3], mips: u32, layers: u32) -> String {
-    format!("{width}×{height}×{depth} texels with mips: {mips}, layers: {layers}")
 }

@@ -1,6 +1,6 @@
 //! Texels of a file in another format: blocks are decoded, and numbers converted.
 
-use super::pack::pack;
+use super::super::pack::pack;
 use crate::srgb;
 use astc_decode::Footprint;
 use framewright_graph::frame::TextureProblem;
