@@ -1,5 +1,5 @@
 //! An engine of the program's own: draws with its vertices and materials, a custom pass that draws, and one that writes a buffer.
-//! `engine/engine.ron` is its pipeline, `engine/interface.rs` what its draws bring along.
+//! `custom_pass/engine.ron` is its pipeline, `custom_pass/interface.rs` what its draws bring along.
 //!
 //! `cargo run --package framewright --example custom_pass` writes `out/engine.png`.
 
@@ -11,7 +11,7 @@ use framewright::{
 };
 use std::path::Path;
 
-#[path = "engine/interface.rs"]
+#[path = "custom_pass/interface.rs"]
 mod interface;
 
 /// What the engine draws with.
@@ -72,7 +72,7 @@ impl DrawSource for Engine {
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let pipeline = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/engine/engine.ron");
+    let pipeline = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/custom_pass/engine.ron");
     let mut options = RendererOptions::default();
     options.draws = interface::interfaces();
     let device = Device::open(&DeviceOptions::default())?;

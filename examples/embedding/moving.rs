@@ -31,7 +31,7 @@ pub(crate) fn draw(device: &Device) -> Result<Vec<Texels>, Error> {
     options.draws = interface::interfaces();
     options.executor.frames_in_flight = 2;
     options.executor.readback = true;
-    let pipeline = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/engine/engine.ron");
+    let pipeline = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/custom_pass/engine.ron");
     let mut renderer = Renderer::open(device, pipeline, options)?;
     renderer.set("grass", false)?;
     renderer.set_extent([64, 32])?;

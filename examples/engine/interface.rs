@@ -1,18 +1,33 @@
-use framewright::graph::frame::Draw;
-use framewright::graph::shader::{Attribute, DrawInterface, DrawInterfaces, DrawKind, SuppliedKind, SuppliedResource};
+//! All that passes see of the engine. `to_ron()` writes it to interface.ron, for `framewright check`.
 
-/// Everything that the engine's draws bring along, what compute passes see, and the custom passes that the engine records.
+use framewright::graph::frame::Draw;
+use framewright::graph::shader::{
+    BindingFlags, DescriptorType, DrawInterface, DrawInterfaces, ProgramBinding, ProgramSet, SuppliedKind,
+    SuppliedResource,
+};
+use framewright::graph::vulkan::Stages;
+
+/// The set of all textures, and as many as it has room for.
+pub(crate) const TABLE: u32 = 1;
+pub(crate) const ROOM: u32 = 64;
+/// The set of the camera and the objects.
+pub(crate) const OBJECTS: u32 = 2;
+
 pub(crate) fn interfaces() -> DrawInterfaces {
-    let camera = || SuppliedResource::new(1, 0, "camera", SuppliedKind::UniformBlock);
-    let only_camera = || DrawInterface { supplied: vec![camera()], ..DrawInterface::default() };
+    let supplied = [
+        SuppliedResource::new(OBJECTS, 0, "Camera", SuppliedKind::UniformBlock),
+        SuppliedResource::new(OBJECTS, 1, "objects", SuppliedKind::StorageBlock),
+    ];
     let interfaces = DrawInterfaces::from(|draw| match draw {
-        Draw::Objects(_) => DrawInterface {
-            vertex_stride: 20,
-            attributes: vec![Attribute::new("place", 2, 0), Attribute::new("tint", 3, 8)],
-            supplied: vec![camera(), SuppliedResource::new(2, 0, "materials", SuppliedKind::StorageBlock)],
-        },
-        Draw::Custom => only_camera(),
+        Draw::Objects(_) => DrawInterface { supplied: supplied.to_vec(), ..DrawInterface::default() },
         _ => DrawInterface::default(),
     });
-    interfaces.with(DrawKind::Compute, only_camera()).with_custom_passes(["grass", "upload"])
+    interfaces.with_set(table()).with_custom_passes(["sparks"])
+}
+
+fn table() -> ProgramSet {
+    let flags = BindingFlags { partially_bound: true, ..BindingFlags::default() };
+    let textures = ProgramBinding::new(0, DescriptorType::SampledImage).with_count(ROOM).with_flags(flags);
+    let sampler = ProgramBinding::new(1, DescriptorType::Sampler);
+    ProgramSet::new(TABLE, [textures, sampler].map(|binding| binding.with_stages(Stages::FRAGMENT_SHADER)))
 }

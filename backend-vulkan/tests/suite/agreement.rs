@@ -17,20 +17,20 @@ use framewright_vulkan::{
 };
 use std::sync::Arc;
 
-#[path = "../../../examples/engine/interface.rs"]
+#[path = "../../../examples/custom_pass/interface.rs"]
 mod engine;
 
 const EXTENT: [u32; 2] = [16, 8];
 
 /// The engine's shaders, with draws that bring this along.
 fn shaders(interfaces: DrawInterfaces) -> ShaderLibrary {
-    ShaderLibrary::new(vec![Root::new(in_repository("examples/engine"))], &[], interfaces)
+    ShaderLibrary::new(vec![Root::new(in_repository("examples/custom_pass"))], &[], interfaces)
 }
 
 /// The Plan of the engine's pipeline, checked against these interfaces.
 fn planned(device: &Device, interfaces: DrawInterfaces) -> Result<Plan, String> {
     let mut sources = Sources::default();
-    let text = std::fs::read_to_string(in_repository("examples/engine/engine.ron")).expect("a text");
+    let text = std::fs::read_to_string(in_repository("examples/custom_pass/engine.ron")).expect("a text");
     let read = language::read(&mut sources, "engine.ron", "engine.ron", text);
     let pipeline = read.map_err(|mistakes| base::render(&sources, &mistakes))?;
     let sources = Arc::new(sources);
@@ -130,7 +130,7 @@ impl DrawSource for Engine {
 
 #[test]
 fn the_file_of_the_example_is_the_one_that_the_engine_writes() {
-    let file = std::fs::read_to_string(in_repository("examples/engine/interface.ron")).expect("a text");
+    let file = std::fs::read_to_string(in_repository("examples/custom_pass/interface.ron")).expect("a text");
     assert_eq!(file, engine::interfaces().to_ron());
 }
 

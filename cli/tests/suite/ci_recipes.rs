@@ -208,11 +208,13 @@ fn what_the_machine_or_the_command_line_lacks_is_said() {
     check(&place, &["--accept", "pipelines/four.ron"], &low).exits(0);
     // A pipeline for the draws of an engine: it is checked and shown, and not drawn.
     for file in ["engine.ron", "gust.comp", "grass.frag", "grass.vert", "terrain.frag", "terrain.vert"] {
-        std::fs::copy(repository("examples/engine").join(file), place.path("pipelines").join(file)).expect("copied");
+        std::fs::copy(repository("examples/custom_pass").join(file), place.path("pipelines").join(file))
+            .expect("copied");
     }
     check(&place, &["pipelines/engine.ron"], &[]).exits(1);
     std::fs::create_dir(place.path("interfaces")).expect("made");
-    std::fs::copy(repository("examples/engine/interface.ron"), place.path("interfaces/engine.ron")).expect("copied");
+    std::fs::copy(repository("examples/custom_pass/interface.ron"), place.path("interfaces/engine.ron"))
+        .expect("copied");
     let said = check(&place, &["pipelines/engine.ron"], &[]).exits(0).out;
     assert!(said.contains("fine: engine: page, without pictures"), "{said}");
     assert!(has(&place, "pages/engine.html") && !has(&place, "pictures/engine.png"));

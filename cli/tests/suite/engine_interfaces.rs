@@ -7,7 +7,7 @@ fn engine() -> Place {
     let place = Place::new();
     for file in ["engine.ron", "interface.ron", "terrain.vert", "terrain.frag", "grass.vert", "grass.frag", "gust.comp"]
     {
-        place.file(file, std::fs::read(repository("examples/engine").join(file)).expect("the example"));
+        place.file(file, std::fs::read(repository("examples/custom_pass").join(file)).expect("the example"));
     }
     place
 }
@@ -222,15 +222,15 @@ fn commands_that_draw_take_no_interface() {
 #[test]
 fn the_page_on_embedding_shows_the_example() {
     let page = std::fs::read_to_string(repository("docs/embedding.md")).expect("a page");
-    let example = std::fs::read_to_string(repository("examples/engine/interface.rs")).expect("the example");
+    let example = std::fs::read_to_string(repository("examples/custom_pass/interface.rs")).expect("the example");
     assert!(
         page.contains(&format!("```rust\n{example}```")),
-        "docs/embedding.md doesn't hold examples/engine/interface.rs"
+        "docs/embedding.md doesn't hold examples/custom_pass/interface.rs"
     );
-    let file = std::fs::read_to_string(repository("examples/engine/interface.ron")).expect("the file");
+    let file = std::fs::read_to_string(repository("examples/custom_pass/interface.ron")).expect("the file");
     assert!(
         page.contains(&format!("```ron\n{file}```")),
-        "docs/embedding.md doesn't hold examples/engine/interface.ron"
+        "docs/embedding.md doesn't hold examples/custom_pass/interface.ron"
     );
 }
 

@@ -33,7 +33,7 @@ fn the_page_on_embedding_holds_the_examples() {
     }
 }
 
-#[path = "../../../examples/engine/interface.rs"]
+#[path = "../../../examples/custom_pass/interface.rs"]
 mod interface;
 
 #[path = "../../../examples/embedding/moving.rs"]

@@ -1,8 +1,8 @@
 //! Scenes from files.
 
-use super::model::Scene;
 #[cfg(feature = "gltf")]
 use super::gltf;
+use super::model::Scene;
 use super::{limits, text};
 #[cfg(feature = "gltf")]
 use framewright_graph::base::Root;

@@ -2,8 +2,8 @@
 
 use super::extensions::{self, Extensions};
 use super::json;
-use super::problem::{GltfError, Problem};
 use super::notes::Notes;
+use super::problem::{GltfError, Problem};
 use framewright_graph::base::{NoText, text_of};
 use serde::Deserialize;
 use serde::de::IgnoredAny;

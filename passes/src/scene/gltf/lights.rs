@@ -2,9 +2,9 @@
 
 use super::document::{self, Document, follow};
 use super::nodes::PlacedNode;
+use super::notes::Notes;
 use super::problem::{GltfError, Problem, at_most_in_all, leave_out, within};
 use crate::scene::model::{PointLight, Sun};
-use super::notes::Notes;
 use crate::scene::{defaults, limits};
 use glam::{DMat4, DVec3};
 use std::f64::consts::PI;

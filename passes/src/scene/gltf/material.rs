@@ -2,11 +2,11 @@
 
 use super::accessor::Data;
 use super::document;
+use super::notes::Notes;
 use super::picture::Textures;
 use super::problem::{GltfError, Problem, leave_out};
 use crate::scene::limits;
 use crate::scene::model::{AlphaMode, Material};
-use super::notes::Notes;
 
 /// The range of most factors, and its words.
 const UP_TO_1: (f64, &str) = (1.0, "0 to 1");

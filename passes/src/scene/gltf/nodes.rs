@@ -1,8 +1,8 @@
 //! The tree of nodes, walked without recursion.
 
 use super::document::{Document, Node, follow};
-use super::problem::{GltfError, Problem};
 use super::notes::Notes;
+use super::problem::{GltfError, Problem};
 use glam::{DMat4, DQuat, DVec3};
 
 /// A node with its place in the world.

@@ -2,11 +2,11 @@
 
 use super::accessor::Data;
 use super::document::{self, follow};
+use super::notes::Notes;
 use super::problem::{GltfError, Problem, at_most, at_most_in_all};
 use crate::decoder_words;
 use crate::scene::limits;
 use crate::scene::model::{Sampler, Texture, Wrap};
-use super::notes::Notes;
 use framewright_graph::vulkan::Filter;
 use image::{DynamicImage, ImageFormat, ImageReader, Limits};
 use std::borrow::Cow;

@@ -2,11 +2,11 @@
 
 use super::accessor::{Data, TEXTURE_COORDINATES};
 use super::document::{Document, Primitive};
+use super::notes::Notes;
 use super::problem::{GltfError, Problem, at_most_in_all};
 use crate::scene::limits;
 use crate::scene::model::{Bounds, Mesh};
 use glam::Vec3;
-use super::notes::Notes;
 
 /// Vertices and indices of all primitives so far.
 #[derive(Debug, Default)]

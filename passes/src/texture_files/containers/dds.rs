@@ -1,7 +1,7 @@
 //! DDS files of Microsoft ("Programming Guide for DDS").
 
-use super::container::{Container, Place, StoredTexels};
 use super::super::words::damaged;
+use super::container::{Container, Place, StoredTexels};
 use ddsfile::{Caps2, D3D10ResourceDimension, Dds, Header10, MiscFlag, PixelFormat};
 use framewright_graph::frame::{ColorSpace, TextureProblem};
 use framewright_graph::vulkan::Format::{self, *};

@@ -1,7 +1,7 @@
 //! KTX 2.0 files of Khronos (registry.khronos.org/KTX).
 
-use super::container::{Container, Level, Packing, Place, StoredTexels};
 use super::super::words::damaged;
+use super::container::{Container, Level, Packing, Place, StoredTexels};
 use framewright_graph::frame::{ColorSpace, TextureProblem};
 use framewright_graph::vulkan::{Format, Numeric};
 use ktx2::dfd::Basic;
