@@ -83,7 +83,7 @@ impl<'p> Check<'_, 'p> {
         }
         let own_vertices = pass.draw.is_some_and(|draw| draw.has_own_vertices() || draw.is_custom());
         if pass.raster.topology != PrimitiveTopology::TriangleList && !own_vertices {
-            self.wrong_pass(pass, "makes something else than triangles of vertices that make triangles");
+            self.wrong_pass(pass, "has another topology than triangles, and draws meshes of triangles");
         }
         let second = pass.blend.iter().any(|blend| blend.takes_second_source());
         if second && listed_colors(scope, pass) > 1 {
@@ -278,7 +278,7 @@ impl<'p> Check<'_, 'p> {
         let of_stencil = access.range.aspects == Aspects::STENCIL;
         let seen = if of_stencil { Format::R8_UINT } else { *format };
         let unfit = sampler.is_some_and(|sampler| sampler.mistake(seen).is_some());
-        self.demand(!unfit, access.image, "is sampled as nothing can be");
+        self.demand(!unfit, access.image, "is sampled by a sampler that Vulkan rules out for its format");
         let integer = format.is_integer();
         self.demand(!(linear && integer), access.image, "has integers, which can't be filtered");
         let compares = sampler.is_some_and(|sampler| sampler.compare.is_some());

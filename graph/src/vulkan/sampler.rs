@@ -199,20 +199,22 @@ impl Sampler {
         // Vulkan's VK_LOD_CLAMP_NONE, which stands for no bound.
         let greatest = greatest.or(Some(1000.0));
         match () {
-            () if self.border.is_some_and(|border| !border.fits(format)) => {
-                Some("its border is one of integers exactly where the image holds integers")
-            }
-            () if (self.address == AddressMode::ClampToBorder) != self.border.is_some() => {
-                Some("a border goes with the address mode that clamps to it")
-            }
+            () if self.border.is_some_and(|border| !border.fits(format)) => Some(
+                "its border is of another kind than its texels: integers need an integer border, others a float border",
+            ),
+            () if (self.address == AddressMode::ClampToBorder) != self.border.is_some() => Some(
+                "it has a border colour without the address mode `Border`, or that mode without a border colour",
+            ),
             () if self.reduces() && self.compare.is_some() => {
-                Some("what is compared is neither the least nor the greatest of texels")
+                Some("it compares and reduces: only one of both is possible")
             }
-            () if self.anisotropy > 1 && self.filter == Filter::Nearest => Some("anisotropy goes with a linear filter"),
+            () if self.anisotropy > 1 && self.filter == Filter::Nearest => {
+                Some("it is anisotropic, and its filter isn't linear")
+            }
             () if greatest.is_some_and(|greatest| least.is_some_and(|least| least > greatest)) => {
-                Some("its least mip level lies above its greatest")
+                Some("its least level of detail lies above its greatest")
             }
-            () if least.is_some_and(|least| least < 0.0) => Some("its least mip level lies below 0"),
+            () if least.is_some_and(|least| least < 0.0) => Some("its least level of detail lies below 0"),
             () => None,
         }
     }

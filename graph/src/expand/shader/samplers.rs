@@ -5,7 +5,7 @@ use crate::expand::resources::Resources;
 use crate::frame::Pass;
 use crate::language;
 use crate::shader::{PASS_SET, ShaderInterface, declared_name};
-use crate::vulkan::{AddressMode, Aspects, Filter, Format, Sampler};
+use crate::vulkan::{AddressMode, Aspects, Filter, Format, Sampler, name_of};
 
 /// Reports images that one sampler samples, and that the pass gives in different ways.
 pub(in crate::expand) fn check(
@@ -38,15 +38,17 @@ pub(in crate::expand) fn check(
             first.binding, other.binding, binding.name, pass.name.text
         );
         let wrong = Diagnostic::new(Code::SAMPLER_SHARED, other.span, message).remark(words(other.sampler));
-        errors.push(wrong.label(first.span, words(first.sampler)).help(
-            "say the same `filter`, `mip_filter`, `address` and `compare` of both; left out, `filter` is `Linear` for colour alone",
-        ));
+        errors.push(
+            wrong.label(first.span, words(first.sampler)).help(
+                "say the same of both in all that a sampler has; left out, `filter` is `Linear` for colour alone",
+            ),
+        );
     }
 }
 
 /// A sampler as a file writes it.
 fn words(sampler: Sampler) -> String {
-    let Sampler { filter, mips, address, compare, .. } = sampler;
+    let Sampler { filter, mips, address, compare, border, reduction, anisotropy, lod_bias, min_lod, max_lod } = sampler;
     let name = |filter: Filter| if filter == Filter::Linear { "Linear" } else { "Nearest" };
     let address = match address {
         AddressMode::ClampToEdge => "Clamp",
@@ -55,6 +57,21 @@ fn words(sampler: Sampler) -> String {
         AddressMode::ClampToBorder => "Border",
         AddressMode::MirrorClampToEdge => "MirrorOnce",
     };
-    let compare = if compare.is_some() { ", compared" } else { "" };
-    format!("filter: {}, mip_filter: {}, address: {address}{compare}", name(filter), name(mips))
+    let mut words = format!("filter: {}, mip_filter: {}, address: {address}", name(filter), name(mips));
+    words += if compare.is_some() { ", compared" } else { "" };
+    words.extend(border.iter().map(|border| format!(", border: {}", name_of(border))));
+    if sampler.reduces() {
+        words += &format!(", reduction: {}", name_of(&reduction));
+    }
+    if anisotropy > 1 {
+        words += &format!(", anisotropy: {anisotropy}");
+    }
+    if !lod_bias.is_zero() {
+        words += &format!(", lod_bias: {}", f32::from(lod_bias));
+    }
+    if !min_lod.is_zero() {
+        words += &format!(", min_lod: {}", f32::from(min_lod));
+    }
+    words.extend(max_lod.map(|greatest| format!(", max_lod: {}", f32::from(greatest))));
+    words
 }
