@@ -350,9 +350,9 @@ fn do_11_frames_use_buffers_of_the_program_in_turn() {
 #[test]
 fn do_11_images_that_died_are_told_and_those_of_the_program_are_not() {
     on_each_driver(|device| {
-        let dead = device.follow_images();
         let mut executor = executor(device, &drawn_into());
         frame(&mut executor);
+        let dead = device.follow_images();
         let made = executor.raw_image("shared").expect("there is such an image");
         assert_eq!(dead.take(), []);
         let (image, memory) = own_image(device);
