@@ -53,7 +53,7 @@ pub mod shaders;
 pub use ash;
 pub use base::{Blame, Cache, CachedFiles, Error, INSTALL, end_process};
 pub use commands::Texels;
-pub use execute::{Executor, ExecutorOptions, ExternalStates, ResourceState, SemaphorePoint, Submission};
+pub use execute::{Executor, ExecutorOptions, ExternalStates, OutsideOwner, ResourceState, SemaphorePoint, Submission};
 /// The faces that draws leave out, and which side is the front.
 pub use framewright_graph::vulkan::{CullMode, FrontFace};
 pub use gpu::{
@@ -64,7 +64,7 @@ pub use gpu::{
 /// The allocator of device memory, for programs whose own one serves an [adopted](AdoptedDevice) device.
 pub use gpu_allocator;
 pub use helper::Helper;
-pub use memory::{LiveMemory, MemoryInUse};
+pub use memory::{DeadImages, LiveMemory, MemoryInUse};
 pub use present::{Overlay, PresentMode, Presentation, Surface, Swapchain, SwapchainOptions};
 pub use probe::Canary;
 /// The handles of windows and displays, for programs that show pictures.

@@ -76,6 +76,9 @@ typedef enum {
 // A device. Any thread may use it, and several at once. It closes when it and all that was made from it are freed.
 typedef struct FramewrightDevice FramewrightDevice;
 
+// Features and extensions for a device that the program makes, and has the library use.
+typedef struct FramewrightFeatures FramewrightFeatures;
+
 // A pipeline that is drawn frame after frame. One thread at a time uses it; it need not be the same one.
 typedef struct FramewrightRenderer FramewrightRenderer;
 
@@ -115,6 +118,9 @@ typedef struct {
 // Is told a finding of the validation layer, which lives until it returns: the layer's words, behind the step and pass where the layer
 // knows them.
 typedef void (*FramewrightFinding)(void *context, const char *text);
+
+// Is told an image of the library's that died.
+typedef void (*FramewrightDeadImage)(void *context, VkImage image);
 
 // Several texts.
 typedef struct {
@@ -269,6 +275,10 @@ typedef struct {
     double size;
 } FramewrightFacts;
 
+// Is told a feature that a plan uses: Vulkan's name of it, of the property where none switches it on, or of the extension where it has no
+// feature; and the first that uses it, in words. Both live until it returns.
+typedef void (*FramewrightFeature)(void *context, const char *name, const char *used_by);
+
 // An image of the program's that a frame uses.
 typedef struct {
     // The name of the external image.
@@ -362,6 +372,12 @@ FramewrightStatus framewright_device_findings(const FramewrightDevice *device,
                                               FramewrightFinding tell,
                                               void *context);
 
+// Tells each image of the library's that was destroyed since the last call; the first call begins to look. A program that keeps views of
+// images that it was told, as by `framewright_pass_image`, destroys those views then: another image may have the same handle later.
+FramewrightStatus framewright_device_dead_images(const FramewrightDevice *device,
+                                                 FramewrightDeadImage tell,
+                                                 void *context);
+
 // Frees the handle of a device. What was made from it keeps it open.
 void framewright_device_free(FramewrightDevice *device);
 
@@ -369,6 +385,26 @@ void framewright_device_free(FramewrightDevice *device);
 // all that is made from the handle.
 FramewrightStatus framewright_device_adopt(const FramewrightAdoptedDevice *program,
                                            FramewrightDevice **device);
+
+// Tells with which features and extensions the program makes a device that the library is to use: those that
+// `framewright_renderer_features` lists, or of several renderers all lists together. NULL: all that any renderer uses where the device has
+// it. It is an error if the device lacks any, or of the latter what the library needs everywhere. `robustBufferAccess` is among the latter
+// alone: add it where files or shaders of strangers are drawn. Freed by `framewright_features_free`.
+FramewrightStatus framewright_features_open(VkInstance instance,
+                                            VkPhysicalDevice physical_device,
+                                            const FramewrightNames *used,
+                                            FramewrightFeatures **features);
+
+// The features, chained: for `VkDeviceCreateInfo.pNext` and `FramewrightAdoptedDevice.features`. It lives as long as the handle; NULL for
+// NULL.
+const VkPhysicalDeviceFeatures2 *framewright_features_chain(const FramewrightFeatures *features);
+
+// The extensions of the device, for `VkDeviceCreateInfo` and `FramewrightAdoptedDevice.device_extensions`. They live as long as the handle;
+// none for NULL. A program that presents adds `VK_KHR_swapchain`, if it isn't among them.
+FramewrightNames framewright_features_extensions(const FramewrightFeatures *features);
+
+// Frees the handle of features.
+void framewright_features_free(FramewrightFeatures *features);
 
 // Reads a scene from a file (`.ron`, `.gltf`, `.glb`); where there is none, the shipped scene of that name.
 FramewrightStatus framewright_scene_load(const char *path, FramewrightScene **scene);
@@ -426,6 +462,16 @@ FramewrightStatus framewright_renderer_set_stereo(FramewrightRenderer *renderer,
 
 // Says by how much the screen is turned that shows the picture: a FramewrightRotation. What is read back is upright.
 FramewrightStatus framewright_renderer_set_rotation(FramewrightRenderer *renderer, uint32_t rotation);
+
+// Tells the format of the images that the program shows the first output in, as those of a swapchain of its own: what the pipeline calls
+// `format: Output`. `VK_FORMAT_UNDEFINED`: the format that the pipeline has without a window.
+FramewrightStatus framewright_renderer_set_output_format(FramewrightRenderer *renderer,
+                                                         VkFormat format);
+
+// Tells each feature of a device that the next frame uses, for `framewright_features_open`. It begins with a plan, as a frame does.
+FramewrightStatus framewright_renderer_features(FramewrightRenderer *renderer,
+                                                FramewrightFeature tell,
+                                                void *context);
 
 // Whether a file that was read is another one by now: 1, else 0.
 FramewrightStatus framewright_renderer_files_changed(FramewrightRenderer *renderer, uint32_t *changed);
@@ -501,6 +547,14 @@ FramewrightStatus framewright_renderer_import_images(FramewrightRenderer *render
                                                      const char *name,
                                                      const VkImage *images,
                                                      size_t count);
+
+// Takes buffers of the program's own for the external buffer `name`, from the next frame on. Frames use them in turn: the frame of number
+// `n` uses the one of number `n % count`, unless `FramewrightSubmission.images` chooses another one. All else is as for
+// `framewright_renderer_import_images`.
+FramewrightStatus framewright_renderer_import_buffers(FramewrightRenderer *renderer,
+                                                      const char *name,
+                                                      const VkBuffer *buffers,
+                                                      size_t count);
 
 // Tells Vulkan's image that stood for the image `name` in the last frame, for commands of the program's own.
 FramewrightStatus framewright_renderer_image(FramewrightRenderer *renderer, const char *name, VkImage *image);

@@ -36,6 +36,7 @@ mod options;
 mod pipeline;
 mod renderer;
 mod scene_renderer;
+mod window;
 
 pub use framewright_graph as graph;
 pub use framewright_passes as passes;

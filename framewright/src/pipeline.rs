@@ -11,7 +11,7 @@ use framewright_graph::device::{MemoryProvider, Profile};
 use framewright_graph::expand::{self, Expander, Inputs};
 use framewright_graph::frame::{Frame, TextureFile, TextureInfo, TextureProblem, Textures};
 use framewright_graph::language::{self, Document, Files, FoundFile, PipelineFiles, ReadFailure, SettingsFile};
-use framewright_graph::plan::Plan;
+use framewright_graph::plan::{Plan, UsedFeature};
 use framewright_graph::verify;
 use framewright_passes::texture_files::TextureFiles;
 use framewright_vulkan::Device;
@@ -245,6 +245,15 @@ impl Pipeline {
     /// [`Error::Mistakes`] with the memory that it takes, and the images that take most.
     pub fn fits(&self, plan: &Plan, frame: &Frame, device: &Profile) -> Result<(), Error> {
         heap_size::too_large(plan, frame, device).map_or(Ok(()), |large| Err(self.wrong(vec![large])))
+    }
+
+    /// The features of a device that a Plan of its uses: see [`Plan::features`]. It needs no device.
+    ///
+    /// # Errors
+    /// A shader that can't be used.
+    pub fn features(&mut self, plan: &Plan) -> Result<Vec<UsedFeature>, Error> {
+        let used = plan.features(&mut self.assets.shaders);
+        used.map_err(|(name, problem)| framewright_vulkan::Error::Shader { name: name.to_string(), problem }.into())
     }
 
     /// The Plan of a frame of these choices, made by `compiler`. Shaders are compiled when it is executed.

@@ -9,10 +9,10 @@ use framewright_graph::compile::Compiler;
 use framewright_graph::device::Profile;
 use framewright_graph::frame::Stereo;
 use framewright_graph::language::{Document, Facts};
-use framewright_graph::plan::Plan;
+use framewright_graph::plan::{Plan, UsedFeature};
 use framewright_graph::vulkan::Rotation;
 use framewright_passes::scene::Scene;
-use framewright_vulkan::{Device, DrawSource, Executor, FrameReport, Overlay, Presentation, RawSet, Swapchain, Texels};
+use framewright_vulkan::{Device, DrawSource, Executor, FrameReport, RawSet, Texels};
 use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::path::Path;
@@ -24,13 +24,13 @@ use std::sync::Arc;
 /// or a file is an error of the call that brought it, and leaves the last good Plan drawing.
 pub struct Renderer {
     device: Device,
-    profile: Arc<Profile>,
+    pub(crate) profile: Arc<Profile>,
     origin: Origin,
     options: RendererOptions,
     pipeline: Pipeline,
     /// The files that were read last, by a reload that failed too.
     read: ReadFiles,
-    chosen: DrawnChoices,
+    pub(crate) chosen: DrawnChoices,
     compiler: Compiler,
     /// The sets of the program's that the next executor begins with.
     sets: BTreeMap<u32, (RawSet, Vec<u32>)>,
@@ -42,17 +42,17 @@ pub struct Renderer {
 
 /// What was chosen.
 #[derive(Debug, Clone, Default, PartialEq)]
-struct DrawnChoices {
+pub(crate) struct DrawnChoices {
     /// Values of settings, by name. One that the file doesn't have, or no longer, waits for it.
     set: BTreeMap<String, String>,
     preset: Option<String>,
     /// All else.
-    frame: Choices,
+    pub(crate) frame: Choices,
 }
 
 /// The executor of the Plan that is drawn, and the choices that the Plan was made for.
-struct DrawnPlan {
-    executor: Executor,
+pub(crate) struct DrawnPlan {
+    pub(crate) executor: Executor,
     chosen: DrawnChoices,
 }
 
@@ -196,24 +196,7 @@ impl Renderer {
         Ok(())
     }
 
-    /// Fits the frame to a window: to size, format and rotation of its images. Two eyes beside each other
-    /// ([`Stereo::DoubleWide`], [`Stereo::Instanced`]) have half of its width each. While the window has no area nothing changes.
-    ///
-    /// # Errors
-    /// Those of [`Renderer::set_extent`] and [`Renderer::set_stereo`].
-    pub fn fit(&mut self, window: &Swapchain) -> Result<(), Error> {
-        let (Some([width, height]), format) = (window.extent(), window.format()) else { return Ok(()) };
-        let eyes = match self.chosen.frame.stereo_on(&self.profile)? {
-            Stereo::DoubleWide | Stereo::Instanced => 2,
-            Stereo::Off | Stereo::MultiPass | Stereo::Multiview => 1,
-        };
-        self.set_extent([(width / eyes).max(1), height])?;
-        let rotation = window.rotation();
-        self.take(|chosen| (chosen.frame.window, chosen.frame.rotation) = (format, rotation));
-        Ok(())
-    }
-
-    fn take(&mut self, choose: impl FnOnce(&mut DrawnChoices)) {
+    pub(crate) fn take(&mut self, choose: impl FnOnce(&mut DrawnChoices)) {
         let mut chosen = self.chosen.clone();
         choose(&mut chosen);
         self.changed |= self.chosen != chosen;
@@ -293,7 +276,7 @@ impl Renderer {
     }
 
     /// What is drawn. After [`Renderer::prepare`] there is something, unless the device gave up while contents were carried over.
-    fn drawn(&mut self) -> Result<&mut DrawnPlan, Error> {
+    pub(crate) fn drawn(&mut self) -> Result<&mut DrawnPlan, Error> {
         let none = || framewright_vulkan::Error::BadPlan { what: "there is none yet".to_owned() };
         Ok(self.drawn.as_mut().ok_or_else(none)?)
     }
@@ -351,39 +334,6 @@ impl Renderer {
     pub fn submit(&mut self, source: &mut dyn DrawSource) -> Result<u64, Error> {
         self.prepare()?;
         Ok(self.drawn()?.executor.submit(source)?)
-    }
-
-    /// Draws a frame into the next image of a window that it [fits](Renderer::fit), and has it shown: the first output. See
-    /// [`Executor::present`].
-    ///
-    /// # Errors
-    /// Those of [`Renderer::prepare`] and [`Executor::present`].
-    pub fn present(&mut self, source: &mut dyn DrawSource, window: &mut Swapchain) -> Result<Presentation, Error> {
-        self.prepare()?;
-        let executor = &mut self.drawn()?.executor;
-        Ok(executor.present(source, window, &shown(executor))?)
-    }
-
-    /// Draws a frame into the next image of a window, then a frame of the renderer `over` over it, such as text, and has both shown: see
-    /// [`Renderer::present`] and [`Overlay`]. The overlay is the first output of `over`, whose frames are counted by themselves.
-    ///
-    /// # Errors
-    /// Those of [`Renderer::present`], of both renderers. If the overlay can't be drawn, the frame of this renderer is submitted all the
-    /// same: it counts, and isn't shown.
-    pub fn present_with_overlay(
-        &mut self,
-        source: &mut dyn DrawSource,
-        window: &mut Swapchain,
-        over: &mut Renderer,
-        over_source: &mut dyn DrawSource,
-    ) -> Result<Presentation, Error> {
-        self.prepare()?;
-        over.prepare()?;
-        let over = &mut over.drawn()?.executor;
-        let name = shown(over);
-        let overlay = Overlay { executor: over, source: over_source, name: &name };
-        let executor = &mut self.drawn()?.executor;
-        Ok(executor.present_with_overlay(source, window, &shown(executor), overlay)?)
     }
 
     /// Waits until the device is done with a frame. A frame of an earlier executor counts as done.
@@ -447,6 +397,17 @@ impl Renderer {
         self.drawn.as_ref().map(|drawn| drawn.executor.plan())
     }
 
+    /// The features of a device that the Plan of the next frame uses, with the first that uses each: see [`Plan::features`]. A device
+    /// that is made with these alone ([`DeviceFeatures::exactly`](framewright_vulkan::DeviceFeatures::exactly)) draws it too.
+    ///
+    /// # Errors
+    /// Those of [`Renderer::prepare`].
+    pub fn features(&mut self) -> Result<Vec<UsedFeature>, Error> {
+        self.prepare()?;
+        let plan = self.drawn.as_ref().map(|drawn| drawn.executor.plan());
+        plan.map_or(Ok(Vec::new()), |plan| self.pipeline.features(plan))
+    }
+
     /// Its executor.
     #[must_use]
     pub fn executor(&self) -> Option<&Executor> {
@@ -489,9 +450,4 @@ impl DrawnPlan {
             Error::UnknownOutput { name: name.to_owned(), known }
         })
     }
-}
-
-/// The name of the output that windows show.
-fn shown(executor: &Executor) -> Arc<str> {
-    executor.plan().outputs.first().map_or_else(Arc::default, |output| output.name.clone())
 }

@@ -19,6 +19,7 @@ impl Error {
                 Code::VALIDATION_LAYER
             }
             Error::Lacking { .. } | Error::NotEnabled { .. } => Code::DEVICE_LACKS,
+            Error::WithoutFeatures { .. } => Code::NOT_SWITCHED_ON,
             Error::CantWrite { .. } => Code::FILE_UNWRITABLE,
             Error::AtStep { error, .. } => error.code(),
             Error::Cancelled { .. } => Code::INTERRUPTED,

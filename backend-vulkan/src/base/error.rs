@@ -5,6 +5,7 @@ use ash::vk;
 use framewright_graph::base::{amount, escape};
 use framewright_graph::device::MemoryNeeds;
 use framewright_graph::frame::TextureProblem;
+use framewright_graph::plan::UsedFeature;
 use framewright_graph::shader::ShaderProblem;
 use framewright_graph::verify::Violation;
 
@@ -64,6 +65,18 @@ pub enum Error {
         device: String,
         /// All that it was created without.
         missing: Vec<String>,
+    },
+    /// The device was made without features that a Plan uses.
+    #[error(
+        "{} was created without what the Plan uses: {}; switch it on where the device is created, or choose another device",
+        escape(device),
+        uses(missing)
+    )]
+    WithoutFeatures {
+        /// The device.
+        device: String,
+        /// The features, each with what uses it.
+        missing: Vec<UsedFeature>,
     },
     /// Validation was asked for and there is no validation layer.
     #[error("no layer VK_LAYER_KHRONOS_validation{}; mend it with: {INSTALL}{}", looked(layer_path), disabled())]
@@ -308,6 +321,7 @@ impl Error {
             | Error::DrawSource { .. } => Blame::Files,
             Error::BadPlan { .. }
             | Error::NotEnabled { .. }
+            | Error::WithoutFeatures { .. }
             | Error::NotImported { .. }
             | Error::Cancelled { .. }
             | Error::Violations { .. }
@@ -323,6 +337,11 @@ impl Error {
             result => Error::Vulkan { doing, result },
         }
     }
+}
+
+fn uses(missing: &[UsedFeature]) -> String {
+    let all: Vec<String> = missing.iter().map(|it| format!("{} ({})", it.name, escape(&it.by))).collect();
+    all.join(", ")
 }
 
 fn did_you_mean(near: &Option<String>) -> String {

@@ -189,8 +189,7 @@ impl Executor {
         Ok(())
     }
 
-    /// Takes the program's own buffer for the external buffer `name`, from the next frame on. Frames in flight are waited
-    /// for.
+    /// Takes the program's own buffer for the external buffer `name`, from the next frame on. Frames in flight are waited for.
     ///
     /// # Errors
     /// Those of [`Executor::import_image`].
@@ -198,15 +197,37 @@ impl Executor {
     /// # Safety
     /// That of [`Executor::import_image`].
     pub unsafe fn import_buffer(&mut self, name: &str, buffer: vk::Buffer) -> Result<(), Error> {
+        // SAFETY: the caller's promise.
+        unsafe { self.import_buffers(name, &[buffer]) }
+    }
+
+    /// Takes several buffers of the program's own for the external buffer `name`, which frames use in turn: the frame of number `n`, as
+    /// [`Executor::submit`] returns it, uses the one of number `n % buffers.len()`, unless
+    /// [`Submission::images`](crate::Submission) chooses another one. With as many as frames may be on their way, the program writes the
+    /// one of the next frame ([`Executor::frames`]) as soon as the frame that used it last was waited for. Frames in flight are waited
+    /// for.
+    ///
+    /// # Errors
+    /// Those of [`Executor::import_image`]; [`Error::BadResource`] if there are no buffers.
+    ///
+    /// # Safety
+    /// That of [`Executor::import_image`], for each buffer in the frames that use it.
+    pub unsafe fn import_buffers(&mut self, name: &str, buffers: &[vk::Buffer]) -> Result<(), Error> {
         let id = self.buffer_named(name)?;
         let plan = &self.plan.buffers[id.0 as usize];
         self.may_import(&plan.role, name)?;
+        if buffers.is_empty() {
+            return Err(Error::BadResource { what: format!("no buffers were given for `{name}`") });
+        }
         self.frames.wait_for_all()?;
         self.missing.retain(|missing| missing != name);
+        let descriptor = buffer_descriptor(plan);
         // SAFETY: the caller's promise.
-        let buffer = unsafe { RawBuffer::foreign(&self.gpu, &buffer_descriptor(plan), buffer) };
+        let foreign = buffers.iter().map(|raw| unsafe { RawBuffer::foreign(&self.gpu, &descriptor, *raw) });
         self.prepared.forget();
-        self.prepared.physical.replace_buffers(id, [buffer]);
+        self.prepared.physical.replace_buffers(id, foreign);
+        self.in_turn.retain(|(of, _)| *of != id);
+        self.in_turn.push((id, buffers.len()));
         Ok(())
     }
 
@@ -253,6 +274,9 @@ impl Executor {
     fn left(&self, resource: Resource) -> Result<(u64, State, Queue), Error> {
         let (name, role) = (self.plan.resource_name(resource), self.plan.role(resource));
         let bad = |what: &str| Error::BadResource { what: format!("`{name}` can't be read: {what}") };
+        if self.is_outside(resource) {
+            return Err(bad("it was given back to its outside owner; what is read back with a frame is kept"));
+        }
         let frame = self.frames.next().checked_sub(1).ok_or_else(|| bad("no frame was drawn yet"))?;
         match role {
             Role::Transient(_) => Err(bad("it is transient")),
@@ -265,6 +289,9 @@ impl Executor {
     /// In what state the next frame finds it, and on which queue.
     fn found(&self, resource: Resource, name: &str) -> Result<(State, Queue), Error> {
         let bad = |what: &str| Error::BadResource { what: format!("`{name}` can't be written: {what}") };
+        if self.is_outside(resource) {
+            return Err(bad("its outside owner has it"));
+        }
         let role = self.plan.role(resource);
         let is_image = matches!(resource, Resource::Image(_));
         let state = match role {

@@ -17,7 +17,7 @@ use crate::resources::{ProgramSets, RawSet};
 use crate::shaders::ShaderLibrary;
 use ash::vk;
 use framewright_graph::frame::{NoTextures, Textures};
-use framewright_graph::plan::Plan;
+use framewright_graph::plan::{BufferId, Plan};
 use std::any::Any;
 use std::sync::Arc;
 
@@ -40,6 +40,8 @@ pub struct Executor {
     pub(crate) prepared: PreparedPlan,
     /// What imported images belong to, by the name of the image. Dropped after the frames, and the views of the images.
     pub(crate) owners: Vec<(String, Arc<dyn Any + Send + Sync>)>,
+    /// Buffers of the program's that frames use in turn, and how many there are for each.
+    pub(super) in_turn: Vec<(BufferId, usize)>,
     /// Images and buffers of the program's that the executors before this one had, and that this one wasn't given yet.
     pub(super) missing: Vec<String>,
     /// Dropped after the frames and all that they use: it may destroy pipelines.
@@ -117,6 +119,7 @@ impl Executor {
             prepared: PreparedPlan::new(gpu, plan, shaders, options.debugging())?,
             sets: ProgramSets::default(),
             owners: Vec::new(),
+            in_turn: Vec::new(),
             missing: Vec::new(),
             _pipelines: pipelines,
             plan: plan.clone(),

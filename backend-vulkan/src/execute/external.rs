@@ -29,7 +29,7 @@ impl Executor {
         }
     }
 
-    /// Chooses among the program's images for the next frame.
+    /// Chooses among the program's buffers and images for the next frame.
     pub(super) fn choose_images(&mut self, images: &[(&str, usize)]) -> Result<(), Error> {
         let physical = &self.prepared.physical;
         let none =
@@ -37,6 +37,10 @@ impl Executor {
         if let Some((name, choice)) = images.iter().find(none) {
             let what = format!("`{name}` has no image {choice} of the program's");
             return Err(Error::BadResource { what });
+        }
+        for (buffer, count) in &self.in_turn {
+            let turn = usize::try_from(self.frames() % *count as u64).unwrap_or(0);
+            self.prepared.physical.choose(Resource::Buffer(*buffer), turn);
         }
         for (name, choice) in images {
             if let Some(resource) = self.external(name) {
@@ -47,7 +51,7 @@ impl Executor {
     }
 
     /// The external image or buffer of this name.
-    fn external(&self, name: &str) -> Option<Resource> {
+    pub(super) fn external(&self, name: &str) -> Option<Resource> {
         let mut all = self.imports.iter().map(|import| import.resource);
         all.find(|it| self.plan.resource_name(*it) == name)
     }

@@ -149,6 +149,9 @@ fn record_batch(
         for (readback, into) in readbacks.filter(|(it, _)| it.after.0 as usize == step) {
             readback.record(recording.frame, commands, into);
         }
+        for import in extras.imports.iter().filter(|it| it.last.0 as usize == step) {
+            import.record_giving(recording.frame, commands);
+        }
     }
     recording.end_batch(commands);
     Ok(())

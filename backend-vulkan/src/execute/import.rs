@@ -1,6 +1,7 @@
 //! Imports: external images and buffers belong to the embedding program, which brings each to the state that the Plan relies
 //! on. For those that the executor made itself, it does so: before each frame, from the state that the last frame left.
 
+use super::outside_owner::OutsideOwner;
 use crate::commands::{barriers, memory_change, state_change};
 use crate::prepare::{Frame, PhysicalResources, ResourceUses};
 use ash::vk;
@@ -11,10 +12,14 @@ use framewright_graph::vulkan::{Layout, Stages, State, Subresources};
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Import {
     pub(super) resource: Resource,
-    before: State,
-    after: State,
+    pub(super) before: State,
+    pub(super) after: State,
     /// The first step that touches it.
     pub(crate) first: StepId,
+    /// The last step that touches it.
+    pub(crate) last: StepId,
+    /// Who has it between frames, if it is somebody outside of the device.
+    pub(super) owner: Option<OutsideOwner>,
     /// Where another queue than the first one's used it last, in the frame before: what is to be waited for.
     pub(crate) wait: Option<Wait>,
 }
@@ -31,7 +36,8 @@ impl Import {
             let stages = Stages::ALL_COMMANDS;
             let other = queue(span.first) != queue(span.last);
             let wait = other.then_some(Wait { step: span.last, frames_ago: 1, stages });
-            Some(Import { resource, before: *before, after: *after, first: span.first, wait })
+            let (before, after) = (*before, *after);
+            Some(Import { resource, before, after, first: span.first, last: span.last, owner: None, wait })
         };
         images.chain(buffers).filter_map(import).collect()
     }
@@ -44,10 +50,11 @@ impl Import {
         }
     }
 
-    /// Records the barrier from `after` to `before`, ahead of the first step that accesses the resource. Nothing is recorded
+    /// Records what takes it over from an outside owner, and the barrier from `after` to `before`, ahead of the first step that accesses the resource. Nothing is recorded
     /// in the first frame, for resources that the program imports itself, and if `before` equals `after`: then the Plan's
     /// own barrier waits for all accesses of the frame before.
     pub(crate) fn record(&self, frame: &Frame<'_>, commands: vk::CommandBuffer) {
+        self.record_taking(frame, commands);
         let Import { before, after, .. } = *self;
         if frame.number == 0 || !self.is_own(frame.physical) || before == after {
             return;

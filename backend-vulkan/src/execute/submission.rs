@@ -19,8 +19,9 @@ pub struct SemaphorePoint {
 /// What a frame has to do with the program's own work. The default: nothing.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Submission<'s> {
-    /// The images that the frame uses: the name of an external image, and a number among those that
-    /// [`import_images`](crate::Executor::import_images) took for it. An image that isn't listed is the one of the frame before.
+    /// The images and buffers that the frame uses: the name of an external one, and a number among those that
+    /// [`import_images`](crate::Executor::import_images) or [`import_buffers`](crate::Executor::import_buffers) took for it. An image that
+    /// isn't listed is the one of the frame before; a buffer is the one whose turn it is.
     pub images: &'s [(&'s str, usize)],
     /// What the frame waits for before it begins.
     pub waits: &'s [SemaphorePoint],

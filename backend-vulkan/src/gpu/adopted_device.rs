@@ -4,21 +4,22 @@ use super::device::Device;
 use super::features::Features;
 use super::handle::{CreatedDevice, Gpu};
 use super::instance::Instance;
-use super::minimum::missing;
+use super::minimum::missing_of;
 use super::queues::QueueFamilies;
 use super::summary::summary;
 use crate::base::Error;
 use crate::process::Helper;
-use ash::{khr, vk};
+use ash::{ext, khr, vk};
+use framewright_graph::device::EVERY_PLAN_USES;
 use gpu_allocator::vulkan::Allocator;
 use std::ffi::CStr;
 use std::sync::{Arc, Mutex};
 
 /// A device that the program made itself, and what it was made with: for [`Device::adopt`].
 ///
-/// Its instance must have Vulkan 1.3 as its `apiVersion`. The features of [`minimum_features`](crate::minimum_features) must be switched
-/// on, but for `robustBufferAccess`; those of [`optional_features`](crate::optional_features) are used where they are.
-/// [`DeviceFeatures`](crate::DeviceFeatures) has all of them, as a chain.
+/// Its instance must have Vulkan 1.3 as its `apiVersion`. The features that every Plan uses must be switched on
+/// ([`EVERY_PLAN_USES`]); of the others those that its Plans use ([`Plan::features`](framewright_graph::plan::Plan::features)). An
+/// executor of a Plan that uses another one is refused, by name. [`DeviceFeatures`](crate::DeviceFeatures) has them as a chain.
 pub struct AdoptedDevice<'p> {
     /// The instance.
     pub instance: &'p ash::Instance,
@@ -29,7 +30,8 @@ pub struct AdoptedDevice<'p> {
     pub physical: vk::PhysicalDevice,
     /// The device.
     pub device: &'p ash::Device,
-    /// The extensions that the device was created with. `VK_KHR_dynamic_rendering_local_read` and `VK_KHR_swapchain` are used.
+    /// The extensions that the device was created with. `VK_KHR_dynamic_rendering_local_read`, `VK_KHR_swapchain` and
+    /// `VK_EXT_queue_family_foreign` are used.
     pub device_extensions: &'p [&'p CStr],
     /// The features that the device was created with, as they were chained to its creation.
     pub features: &'p vk::PhysicalDeviceFeatures2<'p>,
@@ -47,8 +49,8 @@ impl Device {
     /// the allocator is kept for good. The helper process tests the device, as with [`DeviceOptions`](crate::DeviceOptions).
     ///
     /// # Errors
-    /// [`Error::Lacking`] if the physical device is less than the minimum, and [`Error::NotEnabled`] with all that the device was created
-    /// without.
+    /// [`Error::Lacking`] if the physical device lacks what every Plan uses, and [`Error::NotEnabled`] with all of that which the device
+    /// was created without.
     ///
     /// # Safety
     /// - The instance, the device and the queues live until everything made from the adopted device is gone, and belong together.
@@ -60,14 +62,15 @@ impl Device {
         let on = |extensions: &[&CStr], name: &CStr| extensions.contains(&name);
         let instance = Instance::adopted(program.instance.clone(), program.instance_extensions);
         let summary = summary(&instance, 0, program.physical);
-        let lacks = missing(&instance.raw, program.physical);
+        let every_plan = |name: &str| EVERY_PLAN_USES.contains(&name);
+        let lacks = missing_of(&instance.raw, program.physical, every_plan);
         if !lacks.is_empty() {
             return Err(Error::Lacking { device: summary.name, missing: lacks });
         }
         // SAFETY: the program's word: each structure in the chain is valid.
-        let mut has = unsafe { Features::enabled(&instance.raw, program.physical, program.features) };
-        let mut without: Vec<String> =
-            has.missing_of_program().iter().map(|name| format!("the feature {name}")).collect();
+        let has = unsafe { Features::enabled(&instance.raw, program.physical, program.features) };
+        let missing = has.missing().into_iter().filter(|name| every_plan(name));
+        let mut without: Vec<String> = missing.map(|name| format!("the feature {name}")).collect();
         let given: Vec<u32> = program.queues.iter().map(|(family, _)| *family).collect();
         let families = QueueFamilies::among(&instance.raw, program.physical, &given);
         match &families {
@@ -83,6 +86,7 @@ impl Device {
             raw: program.device.clone(),
             features: Features::used(has, |name| on(program.device_extensions, name)),
             presents,
+            takes_foreign: on(program.device_extensions, ext::queue_family_foreign::NAME),
             queues: program.queues.to_vec(),
             families,
             is_adopted: true,

@@ -1,9 +1,11 @@
 //! What a program switches on when it makes a device for this crate.
 
-use super::features::Features;
-use super::minimum::missing;
+use super::features::{Features, minimum_features};
+use super::minimum::{has_extensions, missing, missing_of};
 use crate::base::Error;
-use ash::vk;
+use ash::{khr, vk};
+use framewright_graph::device::EVERY_PLAN_USES;
+use framewright_graph::plan::UsedFeature;
 use std::ffi::CStr;
 
 /// What a program creates a device with that this crate is to [adopt](crate::Device::adopt): the features of
@@ -17,7 +19,7 @@ pub struct DeviceFeatures {
 }
 
 impl DeviceFeatures {
-    /// Those of a physical device.
+    /// All that are used, of a physical device: for any Plan.
     ///
     /// # Errors
     /// [`Error::Lacking`] with all that it lacks of the minimum.
@@ -25,15 +27,40 @@ impl DeviceFeatures {
     /// # Safety
     /// `physical` belongs to `instance`, whose `apiVersion` is 1.3 or later.
     pub unsafe fn of(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Result<DeviceFeatures, Error> {
-        let missing = missing(instance, physical);
-        if !missing.is_empty() {
-            // SAFETY: the caller's word: `physical` belongs to `instance`.
-            let properties = unsafe { instance.get_physical_device_properties(physical) };
-            let name = properties.device_name_as_c_str().unwrap_or_default();
-            return Err(Error::Lacking { device: name.to_string_lossy().into_owned(), missing });
-        }
+        refuse(instance, physical, missing(instance, physical))?;
         let features = Features::used(Features::of(instance, physical), |_| true);
         let extensions = features.extensions();
+        Ok(DeviceFeatures { features, extensions })
+    }
+
+    /// Those alone that Plans use, by the names that [`Plan::features`](framewright_graph::plan::Plan::features) lists; of several Plans
+    /// all lists together. `robustBufferAccess` isn't among them: add it where files or shaders of strangers are drawn.
+    ///
+    /// # Errors
+    /// [`Error::Lacking`] with all of them that the physical device lacks.
+    ///
+    /// # Safety
+    /// That of [`DeviceFeatures::of`].
+    pub unsafe fn exactly(
+        instance: &ash::Instance,
+        physical: vk::PhysicalDevice,
+        names: &[&str],
+    ) -> Result<DeviceFeatures, Error> {
+        let names: Vec<&str> = EVERY_PLAN_USES.into_iter().chain(names.iter().copied()).collect();
+        // Queues and the version are looked at with those of the minimum.
+        let mut lacks = missing_of(instance, physical, |name| names.contains(&name));
+        let has = Features::of(instance, physical);
+        let (of_swapchains, is_minimum) =
+            (UsedFeature::SWAPCHAIN, |name: &str| minimum_features().any(|it| it == name));
+        let shows = names.contains(&of_swapchains);
+        let [has_swapchains] = has_extensions(instance, physical, [khr::swapchain::NAME]);
+        let beyond = names.iter().filter(|name| **name != of_swapchains && !is_minimum(name) && !has.has(name));
+        lacks.extend(beyond.map(|name| format!("the feature {name}")));
+        lacks.extend((shows && !has_swapchains).then(|| of_swapchains.to_owned()));
+        refuse(instance, physical, lacks)?;
+        let features = has.only(&names);
+        let mut extensions = features.extensions();
+        extensions.extend(shows.then_some(khr::swapchain::NAME));
         Ok(DeviceFeatures { features, extensions })
     }
 
@@ -43,9 +70,21 @@ impl DeviceFeatures {
     }
 
     /// The extensions of the device, for `vkCreateDevice` and
-    /// [`AdoptedDevice::device_extensions`](crate::AdoptedDevice::device_extensions). A program that presents adds `VK_KHR_swapchain`.
+    /// [`AdoptedDevice::device_extensions`](crate::AdoptedDevice::device_extensions). A program that presents adds `VK_KHR_swapchain`, if
+    /// it isn't among them.
     #[must_use]
     pub fn extensions(&self) -> &[&'static CStr] {
         &self.extensions
     }
+}
+
+/// Refuses a physical device that lacks anything.
+fn refuse(instance: &ash::Instance, physical: vk::PhysicalDevice, missing: Vec<String>) -> Result<(), Error> {
+    if missing.is_empty() {
+        return Ok(());
+    }
+    // SAFETY: the callers' word: `physical` belongs to `instance`.
+    let properties = unsafe { instance.get_physical_device_properties(physical) };
+    let name = properties.device_name_as_c_str().unwrap_or_default();
+    Err(Error::Lacking { device: name.to_string_lossy().into_owned(), missing })
 }

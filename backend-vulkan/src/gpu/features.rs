@@ -42,8 +42,8 @@ pub(super) type Flag = fn(&mut Features) -> &mut vk::Bool32;
 /// A feature that is used where a device has it: Vulkan's name, the purpose, the flag.
 pub(super) type OptionalFeature = (&'static str, &'static str, Flag);
 
-/// The one feature of the minimum that a program may leave out of a device that it makes itself.
-const ROBUST: &str = "robustBufferAccess";
+/// What keeps files and shaders of strangers within their buffers.
+pub(super) const ROBUST: &str = "robustBufferAccess";
 
 /// The minimum device, feature by feature: Vulkan's name, the flag. All of these are switched on.
 const MINIMUM_FEATURES: [(&str, Flag); 12] = [
@@ -72,6 +72,8 @@ const MINIMUM_FEATURES: [(&str, Flag); 12] = [
     ("sampleRateShading", |it| &mut it.core.sample_rate_shading),
 ];
 
+/// Profiles tell of it by whether there are local reads.
+const LOCAL_READ: &str = "dynamicRenderingLocalRead";
 /// Profiles tell of it by the number of clip distances.
 const CLIP_DISTANCE: &str = "shaderClipDistance";
 
@@ -88,6 +90,14 @@ const OF_EXTENSIONS: [(&CStr, Flag); 2] = [
     (khr::dynamic_rendering_local_read::NAME, |it| &mut it.local_read.dynamic_rendering_local_read),
     (khr::fragment_shader_barycentric::NAME, |it| &mut it.barycentric.fragment_shader_barycentric),
 ];
+
+/// The flag of a feature, by Vulkan's name.
+fn flag(name: &str) -> Option<Flag> {
+    let minimum = MINIMUM_FEATURES.iter().find(|(known, _)| *known == name).map(|(_, flag)| *flag);
+    let optional = || OPTIONAL_FEATURES.iter().chain(&NEEDED_FEATURES).find(|(known, ..)| *known == name);
+    let local: Flag = |it| &mut it.local_read.dynamic_rendering_local_read;
+    minimum.or_else(|| optional().map(|(.., flag)| *flag)).or_else(|| (name == LOCAL_READ).then_some(local))
+}
 
 /// Whether a bit of a device's subgroup properties is set.
 type IsSet = fn(Subgroups) -> bool;
@@ -139,15 +149,15 @@ impl Features {
         Features { core, v1_1, v1_2, v1_3, local_read: local, barycentric, subgroups }
     }
 
-    /// The features that are switched on: the minimum, and beyond it what [`optional_features`] lists, and local
-    /// reads, where the device has them. `extensions`: whether the device may have this extension switched on.
+    /// The features that are switched on: those of the minimum, what [`optional_features`] lists beyond it, and local
+    /// reads, as far as the device has them. `extensions`: whether the device may have this extension switched on.
     pub(crate) fn used(mut has: Features, extensions: impl Fn(&CStr) -> bool) -> Features {
         for (name, flag) in OF_EXTENSIONS {
             *flag(&mut has) &= vk::Bool32::from(extensions(name));
         }
         let mut features = Features::default();
         for (_, flag) in MINIMUM_FEATURES {
-            *flag(&mut features) = vk::TRUE;
+            *flag(&mut features) = *flag(&mut has);
         }
         for (_, _, flag) in OPTIONAL_FEATURES.into_iter().chain(NEEDED_FEATURES) {
             *flag(&mut features) = *flag(&mut has);
@@ -288,19 +298,27 @@ impl Features {
         on
     }
 
-    /// Features of the minimum that the device lacks, by Vulkan's names.
-    pub(crate) fn missing(&mut self) -> Vec<&'static str> {
-        MINIMUM_FEATURES.iter().filter(|(_, flag)| *flag(self) == vk::FALSE).map(|(name, _)| *name).collect()
+    /// Features of the minimum that are switched off, by Vulkan's names.
+    pub(crate) fn missing(&self) -> Vec<&'static str> {
+        let mut all = self.copy();
+        MINIMUM_FEATURES.iter().filter(|(_, flag)| *flag(&mut all) == vk::FALSE).map(|(name, _)| *name).collect()
     }
 
-    /// The same of a device that the program made, which vouches for its indices: see [`crate::Device::adopt`].
-    pub(super) fn missing_of_program(&mut self) -> Vec<&'static str> {
-        self.missing().into_iter().filter(|name| *name != ROBUST).collect()
-    }
-
-    /// Whether a feature that pipelines can need is switched on. `name` is Vulkan's.
+    /// Whether a feature is switched on, or a property of subgroups is there. `name` is Vulkan's.
     pub(crate) fn has(&self, name: &str) -> bool {
-        name == CLIP_DISTANCE && self.clip_distances() || self.needed().any(|known| known == name)
+        let property = || SUBGROUPS.into_iter().any(|(known, has)| known == name && has(self.subgroups));
+        flag(name).map_or_else(property, |flag| *flag(&mut self.copy()) == vk::TRUE)
+    }
+
+    /// Those of these features alone, as far as `self` has them, and what Vulkan wants together with them.
+    pub(super) fn only(&self, names: &[&str]) -> Features {
+        let mut features = Features { subgroups: self.subgroups, ..Features::default() };
+        for flag in names.iter().filter_map(|name| flag(name)) {
+            *flag(&mut features) = *flag(&mut self.copy());
+        }
+        // `used` has one only with the other.
+        features.v1_2.vulkan_memory_model_device_scope |= features.v1_2.vulkan_memory_model;
+        features
     }
 
     /// A copy, chained to nothing.

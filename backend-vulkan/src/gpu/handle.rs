@@ -9,6 +9,7 @@ use super::queues::{QueueFamilies, Queues};
 use super::summary::DeviceSummary;
 use super::{minimum, portability};
 use crate::base::{Cache, Cancel, Error, convert};
+use crate::memory::Followers;
 use ash::{ext, khr, vk};
 use framewright_graph::vulkan::Format;
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
@@ -34,11 +35,15 @@ pub(crate) struct Gpu {
     pub(crate) max_views: u32,
     /// Whether images can be in the layout `PRESENT_SRC_KHR`.
     pub(crate) presents: bool,
+    /// Whether images and buffers can have owners that aren't devices of Vulkan (`VK_EXT_queue_family_foreign`).
+    pub(crate) takes_foreign: bool,
     pub(crate) queues: Queues,
     pub(crate) summary: DeviceSummary,
     pub(crate) caches: Caches,
     pub(crate) pipeline_cache: PipelineCache,
     allocator: ManuallyDrop<Arc<Mutex<Allocator>>>,
+    /// Who wants to know of images that die.
+    pub(crate) followers: Followers,
     abandoned: OnceLock<PendingWork>,
     /// Whether the program made the device itself, and destroys it.
     is_adopted: bool,
@@ -54,6 +59,8 @@ pub(super) struct CreatedDevice {
     pub(super) features: Features,
     /// Whether images can be in the layout `PRESENT_SRC_KHR`.
     pub(super) presents: bool,
+    /// Whether images and buffers can have owners that aren't devices of Vulkan.
+    pub(super) takes_foreign: bool,
     pub(super) families: QueueFamilies,
     /// At least one queue of each family.
     pub(super) queues: Vec<(u32, vk::Queue)>,
@@ -84,10 +91,15 @@ impl Gpu {
         let queue = |family: &u32| vk::DeviceQueueCreateInfo::default().queue_family_index(*family);
         let queues: Vec<_> = families.indices.iter().map(|family| queue(family).queue_priorities(&[1.0])).collect();
         // Without swapchains there is no layout PRESENT_SRC_KHR.
-        let [has_swapchains] = minimum::has_extensions(&instance.raw, physical, [khr::swapchain::NAME]);
+        let names = [khr::swapchain::NAME, ext::queue_family_foreign::NAME];
+        let [has_swapchains, takes_foreign] = minimum::has_extensions(&instance.raw, physical, names);
         let presents = instance.surfaces && has_swapchains;
         let mut subset = portability::subset(&instance.raw, physical);
-        let extensions = [(presents, khr::swapchain::NAME), (subset.is_some(), khr::portability_subset::NAME)];
+        let extensions = [
+            (presents, khr::swapchain::NAME),
+            (takes_foreign, ext::queue_family_foreign::NAME),
+            (subset.is_some(), khr::portability_subset::NAME),
+        ];
         let extensions = extensions.into_iter().filter_map(|(there, name)| there.then_some(name));
         let extensions: Vec<_> = features.extensions().into_iter().chain(extensions).map(CStr::as_ptr).collect();
         let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues).enabled_extension_names(&extensions);
@@ -102,7 +114,16 @@ impl Gpu {
         // SAFETY: the device was created with one queue of each of these families.
         let queue = |family: &u32| (*family, unsafe { raw.get_device_queue(*family, 0) });
         let queues = families.indices.iter().map(queue).collect();
-        let made = CreatedDevice { raw, features, presents, families, queues, is_adopted: false, allocator: None };
+        let made = CreatedDevice {
+            raw,
+            features,
+            presents,
+            takes_foreign,
+            families,
+            queues,
+            is_adopted: false,
+            allocator: None,
+        };
         Gpu::of(instance, physical, summary, made, cache)
     }
 
@@ -114,7 +135,7 @@ impl Gpu {
         made: CreatedDevice,
         cache: Option<&Cache>,
     ) -> Result<Gpu, Error> {
-        let CreatedDevice { raw, features, presents, families, queues, is_adopted, allocator } = made;
+        let CreatedDevice { raw, features, presents, takes_foreign, families, queues, is_adopted, allocator } = made;
         let max_views = minimum::max_views(&instance.raw, physical, &features);
         // SAFETY: `physical` belongs to the instance.
         let properties = unsafe { instance.raw.get_physical_device_properties(physical) };
@@ -139,11 +160,13 @@ impl Gpu {
             features,
             max_views,
             presents,
+            takes_foreign,
             queues: Queues::new(families, queues),
             summary,
             caches: Caches::default(),
             pipeline_cache,
             allocator: ManuallyDrop::new(allocator),
+            followers: Followers::default(),
             abandoned: OnceLock::new(),
             is_adopted,
             cancel: Cancel::default(),

@@ -22,14 +22,23 @@ pub(crate) fn has_extensions<const N: usize>(
 
 /// All that `physical` lacks of the minimum, by Vulkan's names.
 pub(crate) fn missing(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Vec<String> {
+    missing_of(instance, physical, |_| true)
+}
+
+/// The same, of the features that are `wanted` alone.
+pub(crate) fn missing_of(
+    instance: &ash::Instance,
+    physical: vk::PhysicalDevice,
+    wanted: impl Fn(&str) -> bool,
+) -> Vec<String> {
     // SAFETY: `physical` belongs to `instance`.
     let properties = unsafe { instance.get_physical_device_properties(physical) };
     if properties.api_version < MINIMUM_VERSION {
         // Its 1.3 features can't even be asked for.
         return vec![format!("Vulkan {} (it has {})", version(MINIMUM_VERSION), version(properties.api_version))];
     }
-    let features = Features::of(instance, physical).missing();
-    let mut missing: Vec<String> = features.iter().map(|name| format!("the feature {name}")).collect();
+    let features = Features::of(instance, physical).missing().into_iter().filter(|name| wanted(name));
+    let mut missing: Vec<String> = features.map(|name| format!("the feature {name}")).collect();
     match QueueFamilies::of(instance, physical) {
         None => missing.push("a queue for graphics and compute".to_owned()),
         Some(families) if families.graphics.timestamp_bits == 0 => {

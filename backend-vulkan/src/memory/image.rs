@@ -103,6 +103,7 @@ impl Drop for Image {
             unsafe { self.gpu.raw.destroy_image_view(*view, None) };
         }
         if self.memory.is_some() {
+            self.gpu.followers.tell(self.raw);
             // SAFETY: as above, and its views are gone.
             unsafe { self.gpu.raw.destroy_image(self.raw, None) };
         }

@@ -8,9 +8,9 @@ use crate::gpu::Gpu;
 use ash::vk;
 use framewright_graph::base::amount;
 use framewright_graph::device::{ImageDescriptor, Limit, MemoryNeeds};
-use framewright_graph::plan::{Buffer, Image, ImageBarrier, MemoryBarrier, Placement, Plan, Resource, Role};
+use framewright_graph::plan::{Buffer, Image, Placement, Plan, Resource, Role, UsedFeature};
 use framewright_graph::verify::{Rule, Violation, verify};
-use framewright_graph::vulkan::{BufferUsage, Layout, State, Usage, name_of};
+use framewright_graph::vulkan::{BufferUsage, Usage, name_of};
 
 /// The Plan's own mistakes that are refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,6 +31,7 @@ pub(crate) fn check_alone(plan: &Plan, refuse: Refusals) -> Result<(), Error> {
 /// Checks `plan` for itself and against the device; with `poison`, also that its images and buffers can be poisoned.
 pub(crate) fn check(gpu: &Gpu, plan: &Plan, refuse: Refusals, poison: bool) -> Result<(), Error> {
     check_alone(plan, refuse)?;
+    features(gpu, plan)?;
     for image in &plan.images {
         checked_image(gpu, plan, image, poison)?;
     }
@@ -43,8 +44,6 @@ pub(crate) fn check(gpu: &Gpu, plan: &Plan, refuse: Refusals, poison: bool) -> R
         }
     }
     all_memory(gpu, plan)?;
-    layouts(gpu, plan)?;
-    features(gpu, plan)?;
     plan.steps.iter().try_for_each(|step| executable(gpu, plan, step))
 }
 
@@ -148,50 +147,17 @@ fn all_memory(gpu: &Gpu, plan: &Plan) -> Result<(), Error> {
     Err(Error::OutOfMemory { what: "the Plan".to_owned(), bytes, parts, reason })
 }
 
-/// Whether the device has the layouts that images come to.
-fn layouts(gpu: &Gpu, plan: &Plan) -> Result<(), Error> {
-    let states = plan
-        .images
-        .iter()
-        .flat_map(|image| image.role.states().into_iter().flatten().map(|state| (image.id, state.layout)));
-    let barriers = plan.steps.iter().flat_map(|step| step.image_barriers.iter().chain(&step.releases));
-    let changes = barriers.flat_map(|it| [(it.image, it.old_layout), (it.image, it.new_layout)]);
-    for (image, layout) in states.chain(changes) {
-        let (name, device) = (&plan.image(image).name, &gpu.summary.name);
-        match layout {
-            Layout::PresentSrcKhr if !gpu.presents => {
-                return bad(format!("`{name}` is to be presented, and {device} has no VK_KHR_swapchain"));
-            }
-            Layout::RenderingLocalReadKhr if gpu.local_read.is_none() => {
-                return bad(format!("`{name}` is read locally, and {device} has no local reads"));
-            }
-            _ => {}
-        }
-    }
-    Ok(())
-}
-
-/// Whether the device has the features that bring the stages, accesses and layouts of barriers.
+/// Whether the device has the features that the Plan uses. Those of its shaders are looked at where these are compiled.
 fn features(gpu: &Gpu, plan: &Plan) -> Result<(), Error> {
-    let ends = |barrier: &MemoryBarrier| {
-        let before = State { stages: barrier.src_stages, accesses: barrier.src_accesses, layout: Layout::Undefined };
-        let after = State { stages: barrier.dst_stages, accesses: barrier.dst_accesses, layout: Layout::Undefined };
-        [before, after]
+    let has = |it: &UsedFeature| match it.name {
+        UsedFeature::SWAPCHAIN => gpu.presents,
+        name => gpu.features.has(name),
     };
-    let image_ends = |it: &ImageBarrier| {
-        let before = State { stages: it.src_stages, accesses: it.src_accesses, layout: it.old_layout };
-        [before, State { stages: it.dst_stages, accesses: it.dst_accesses, layout: it.new_layout }]
-    };
-    for (number, step) in plan.steps.iter().enumerate() {
-        let memory = step.memory_barriers.iter().flat_map(ends);
-        let mut all = step.image_barriers.iter().chain(&step.releases).flat_map(image_ends).chain(memory);
-        let missing = |state: State| state.features().find(|feature| !gpu.features.has(feature));
-        if let Some(feature) = all.find_map(missing) {
-            let device = &gpu.summary.name;
-            return bad(format!("a barrier of step {number} needs the feature {feature}, which {device} doesn't have"));
-        }
+    let missing: Vec<_> = plan.own_features().into_iter().filter(|it| !has(it)).collect();
+    match missing.is_empty() {
+        true => Ok(()),
+        false => Err(Error::WithoutFeatures { device: gpu.summary.name.clone(), missing }),
     }
-    Ok(())
 }
 
 /// Whether the image or buffer takes here what the Plan gives it: exactly that, or where the Plan only estimated, not more.

@@ -55,8 +55,8 @@ fn renderable(gpu: &Gpu, plan: &Plan, scope: &RenderScope) -> Result<(), Error> 
     let draws_so = match (plan.stereo, plan.eyes(scope)) {
         (_, None) => true,
         (Stereo::Multiview, Some(form)) => gpu.max_views >= 2 && form == EyeForm::Layers,
-        (Stereo::Instanced, Some(EyeForm::Layers)) => gpu.features.vertex_layer(),
-        (Stereo::Instanced, Some(EyeForm::Halves)) => gpu.features.clip_distances(),
+        // The features were looked at before.
+        (Stereo::Instanced, Some(_)) => true,
         (Stereo::DoubleWide, Some(form)) => form == EyeForm::Halves,
         (Stereo::Off | Stereo::MultiPass, Some(_)) => false,
     };
@@ -92,9 +92,6 @@ fn sampled(gpu: &Gpu, plan: &Plan, pass: &Pass) -> Result<(), Error> {
             continue;
         }
         let name = &plan.image(access.image).name;
-        if let Some((feature, what)) = sampler.features().find(|(feature, _)| !gpu.features.has(feature)) {
-            return bad(format!("`{name}`: {what} needs the feature {feature}, which {} lacks", gpu.summary.name));
-        }
         if let Some(what) = gpu.shader_limits().exceeded_by(sampler) {
             return bad(format!("`{name}`: {what}"));
         }

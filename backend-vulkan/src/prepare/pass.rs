@@ -298,14 +298,8 @@ pub(super) fn prepare_draw(
     Ok(PreparedDraw { pipeline, local, state, vertices, ..nothing(sets) })
 }
 
-/// The device must have what raster state and blends need, and the shader what they take of it.
+/// The device must allow what raster state asks for, and the shader have what it and blends take.
 fn check_raster(gpu: &Gpu, shader: &ShaderInterface, pass: &plan::Pass) -> Result<(), String> {
-    let of_blends = pass.blend.iter().filter_map(|blend| blend.feature());
-    for (feature, what) in pass.raster.features().chain(of_blends) {
-        if !gpu.features.has(feature) {
-            return Err(format!("{what} needs the feature {feature}, which this device doesn't have"));
-        }
-    }
     let limits = gpu.shader_limits();
     for (limit, value, what) in pass.raster.limits() {
         #[allow(clippy::cast_precision_loss, reason = "such limits are small")]

@@ -3,7 +3,7 @@
 use crate::base::convert;
 use crate::gpu::{Device, Gpu};
 use ash::vk;
-use framewright_graph::device::{FormatSupport, MemoryModel, Profile, Queues};
+use framewright_graph::device::{FormatSupport, MemoryModel, Profile, Queues, SOME_PLANS_USE};
 use framewright_graph::vulkan::{Format, ResolveMode, Sharing, Usage};
 
 /// The modes in which depth can be resolved, in the order in which the self-test works them out.
@@ -56,6 +56,13 @@ pub(super) fn claimed_profile(device: &Device) -> Profile {
         vertex_layer: gpu.features.vertex_layer(),
         max_clip_distances: Some(if gpu.features.clip_distances() { limits.max_clip_distances } else { 0 }),
         features: Some(gpu.features.needed().map(str::to_owned).collect()),
+        without: gpu
+            .features
+            .missing()
+            .into_iter()
+            .filter(|it| SOME_PLANS_USE.contains(it))
+            .map(str::to_owned)
+            .collect(),
         limits: Some(gpu.shader_limits()),
         depth_resolve: depth_resolve_modes(gpu),
         refuted_depth_resolve: Vec::new(),

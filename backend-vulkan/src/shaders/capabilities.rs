@@ -9,7 +9,7 @@ use crate::base::named;
 use rspirv::spirv::Capability;
 
 /// Capabilities that every stage may need: those of the minimum device, and the ones with a remark below.
-const EVERYWHERE: [Capability; 14] = [
+const EVERYWHERE: [Capability; 11] = [
     Capability::Matrix,
     Capability::Shader,
     Capability::Sampled1D,
@@ -18,9 +18,6 @@ const EVERYWHERE: [Capability; 14] = [
     Capability::ImageBuffer,
     Capability::ImageQuery,
     Capability::DerivativeControl,
-    Capability::SampleRateShading,
-    Capability::InterpolationFunction,
-    Capability::DemoteToHelperInvocation,
     // Shaders have it only where they are compiled for a local read, on a device with local reads.
     Capability::InputAttachment,
     // A device whose profile doesn't list the format for storage refuses the image. Vulkan makes the capability itself no
@@ -38,7 +35,11 @@ const WITHOUT_FORMAT: &[&str] = &["image1D", "image2D", "image3D", "imageCube", 
 const DOT_PRODUCTS: (&str, &[&str]) = ("shaderIntegerDotProduct", &["dotEXT", "dotPacked", "dotAccSat"]);
 
 /// Capabilities that every stage may need on devices that have the feature of this name, and how words of GLSL begin that need them.
-const OF_DEVICES: [(Capability, &str, &[&str]); 46] = [
+const OF_DEVICES: [(Capability, &str, &[&str]); 49] = [
+    // Of the minimum: a device that the program made itself may lack them.
+    (Capability::SampleRateShading, "sampleRateShading", &["gl_SampleID", "gl_SamplePosition", "sample"]),
+    (Capability::InterpolationFunction, "sampleRateShading", &["interpolateAt"]),
+    (Capability::DemoteToHelperInvocation, "shaderDemoteToHelperInvocation", &["demote", "discard"]),
     // Arrays of cubes.
     (Capability::SampledCubeArray, "imageCubeArray", &["samplerCubeArray", "usamplerCubeArray", "isamplerCubeArray"]),
     (Capability::ImageCubeArray, "imageCubeArray", &["imageCubeArray", "uimageCubeArray", "iimageCubeArray"]),

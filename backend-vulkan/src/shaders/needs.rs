@@ -5,7 +5,7 @@ use super::text::Words;
 use super::{block_layout, indexing};
 use crate::base::ShaderStage;
 use framewright_graph::device::{Limit, NeedKind};
-use framewright_graph::shader::Binding;
+use framewright_graph::shader::{Binding, ProgramResource};
 use rspirv::spirv::{Capability, Op, StorageClass};
 
 /// A feature that a device must have, and the words of the stage's text that show where.
@@ -23,18 +23,24 @@ pub(super) struct Needed {
     pub(super) words: Words,
 }
 
-/// All that a stage needs. `features` are those of its capabilities, `workgroup` the invocations of a workgroup.
+/// All that a stage needs. `features` are those of its capabilities, `program` what it reads of the program's sets, `workgroup` the
+/// invocations of a workgroup.
 pub(super) fn needs(
     module: &IndexedModule<'_>,
     stage: ShaderStage,
     mut features: Vec<Feature>,
     bindings: &[Binding],
+    program: &[ProgramResource],
     workgroup: Option<[u32; 3]>,
 ) -> Vec<Needed> {
     features.extend(indexing::features(module));
     features.extend(block_layout::features(module));
     features.extend(initialised(module));
     features.extend(wide_and_narrow(module));
+    features.extend(ends_invocations(module));
+    if stage.facts().writes_attachments {
+        features.extend(stores(bindings, program));
+    }
     features.sort_by_key(|feature| feature.name);
     // Where two ways to tell of a feature agree, the one that knows the words stays.
     features.dedup_by(|later, kept| {
@@ -112,4 +118,20 @@ fn wide_and_narrow(module: &IndexedModule<'_>) -> Vec<Feature> {
         features.push(Feature { name: "shaderSharedInt64Atomics", words: Words::Beginning(&["atomic"]) });
     }
     features
+}
+
+/// An end of an invocation that no other invocation sees.
+fn ends_invocations(module: &IndexedModule<'_>) -> Option<Feature> {
+    let ends = module.code().any(|it| it.class.opcode == Op::TerminateInvocation);
+    ends.then(|| Feature {
+        name: "shaderTerminateInvocation",
+        words: Words::Beginning(&["discard", "terminateInvocation"]),
+    })
+}
+
+/// Images and blocks that a fragment stage may store into.
+fn stores(bindings: &[Binding], program: &[ProgramResource]) -> Option<Feature> {
+    let own = bindings.iter().find(|it| it.kind.is_written()).map(|it| &it.name);
+    let name = own.or_else(|| program.iter().find(|it| it.writable).map(|it| &it.name))?;
+    Some(Feature { name: "fragmentStoresAndAtomics", words: Words::Whole(name.clone()) })
 }

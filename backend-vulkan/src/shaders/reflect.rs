@@ -81,7 +81,7 @@ pub(super) fn reflect(
             "its workgroups have no invocations: a side of them is 0".to_owned(),
         ));
     }
-    let needs = needs(&module, stage, features, &bindings, workgroup_size);
+    let needs = needs(&module, stage, features, &bindings, &program, workgroup_size);
     let interface = ShaderInterface {
         bindings,
         program,

@@ -57,7 +57,11 @@ fn made(like: &Device, features: &mut vk::PhysicalDeviceFeatures2<'_>) -> ash::D
 }
 
 /// The same with extensions.
-fn made_with(like: &Device, features: &mut vk::PhysicalDeviceFeatures2<'_>, extensions: &[&CStr]) -> ash::Device {
+pub(crate) fn made_with(
+    like: &Device,
+    features: &mut vk::PhysicalDeviceFeatures2<'_>,
+    extensions: &[&CStr],
+) -> ash::Device {
     let names: Vec<_> = extensions.iter().map(|name| name.as_ptr()).collect();
     let (instance, physical) = like.raw_physical();
     let queues = [vk::DeviceQueueCreateInfo::default().queue_family_index(0).queue_priorities(&[1.0])];
@@ -79,7 +83,7 @@ fn adopted(
 }
 
 /// The same of a device with extensions.
-fn adopted_with(
+pub(crate) fn adopted_with(
     like: &Device,
     raw: &ash::Device,
     features: &vk::PhysicalDeviceFeatures2<'_>,
@@ -287,13 +291,15 @@ fn what_a_device_was_created_without_is_named() {
                 Ok(_) => panic!("it was adopted"),
             }
         };
-        let without = |it: &mut ByVersion| it.v1_3.dynamic_rendering = vk::FALSE;
-        assert_eq!(missing(without, &[0]), ["the feature dynamicRendering"]);
+        let without = |it: &mut ByVersion| it.v1_3.synchronization2 = vk::FALSE;
+        assert_eq!(missing(without, &[0]), ["the feature synchronization2"]);
         let without = |it: &mut ByVersion| {
             it.v1_2.timeline_semaphore = vk::FALSE;
+            it.v1_3.maintenance4 = vk::FALSE;
+            // Not every Plan uses it.
             it.core.independent_blend = vk::FALSE;
         };
-        assert_eq!(missing(without, &[0]), ["the feature timelineSemaphore", "the feature independentBlend"]);
+        assert_eq!(missing(without, &[0]), ["the feature maintenance4", "the feature timelineSemaphore"]);
         assert_eq!(missing(|_| (), &[]), ["a queue for graphics and compute"]);
         let error = Error::NotEnabled { device: "GPU".to_owned(), missing: missing(|_| (), &[]) };
         assert_eq!(

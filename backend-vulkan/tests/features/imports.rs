@@ -319,3 +319,50 @@ fn no_frame_is_drawn_before_the_program_s_own_is_handed_in_again() {
         }
     });
 }
+
+#[test]
+fn do_11_frames_use_buffers_of_the_program_in_turn() {
+    on_each_driver(|device| {
+        let mut executor = executor_of_two(device, &increased());
+        let own = [own_buffer(device), own_buffer(device)];
+        // SAFETY: each is made as the Plan says, and lives until the executor is dropped; nothing else touches it.
+        unsafe {
+            for ((buffer, _), numbers) in own.into_iter().zip([[1, 10, 100], [5, 50, 500]]) {
+                executor.import_buffer("own", buffer).expect("it is external");
+                executor.write_buffer("own", &to_bytes(&numbers)).expect("it fits");
+            }
+            executor.import_buffers("own", &own.map(|(buffer, _)| buffer)).expect("it is external");
+            two_frames(&mut executor);
+            two_frames(&mut executor);
+            frame(&mut executor);
+            assert_eq!(words(&mut executor, "own"), [4, 13, 103]);
+            executor.import_buffer("own", own[1].0).expect("it is external");
+            assert_eq!(words(&mut executor, "own"), [7, 52, 502]);
+            let none = executor.import_buffers("own", &[]).expect_err("no buffer can't be used");
+            assert_eq!(none.to_string(), "no buffers were given for `own`");
+        }
+        drop(executor);
+        // SAFETY: the executor was dropped.
+        own.into_iter().for_each(|buffer| unsafe { destroy_buffer(device, buffer) });
+    });
+}
+
+#[test]
+fn do_11_images_that_died_are_told_and_those_of_the_program_are_not() {
+    on_each_driver(|device| {
+        let mut executor = executor(device, &drawn_into());
+        frame(&mut executor);
+        let dead = device.follow_images();
+        let made = executor.raw_image("shared").expect("there is such an image");
+        assert_eq!(dead.take(), []);
+        let (image, memory) = own_image(device);
+        // SAFETY: it is made as the Plan says, and outlives the executor.
+        unsafe { executor.import_image("shared", image).expect("it is external") };
+        assert_eq!(dead.take(), [made]);
+        frame(&mut executor);
+        drop(executor);
+        assert!(!dead.take().contains(&image));
+        // SAFETY: the executor was dropped.
+        unsafe { destroy_image(device, (image, memory)) };
+    });
+}

@@ -124,8 +124,9 @@ fn a_pass_reads_what_its_scope_drew_at_its_own_position() {
         let executor = Executor::new(device, &plan, &mut library(SHADERS), &ExecutorOptions::default());
         if !device.summary().local_read {
             match executor.err() {
-                Some(Error::BadPlan { what }) => {
-                    assert_eq!(what, format!("`a` is read locally, and {} has no local reads", device.summary().name));
+                Some(Error::WithoutFeatures { missing, .. }) => {
+                    let names: Vec<_> = missing.iter().map(|it| it.name).collect();
+                    assert_eq!(names, ["dynamicRenderingLocalRead"], "{missing:?}");
                 }
                 other => panic!("{other:?}"),
             }

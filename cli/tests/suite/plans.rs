@@ -52,6 +52,31 @@ fn check_as_json_says_that_all_is_fine() {
     assert_eq!(answer["violations"].as_array().map(Vec::len), Some(0));
 }
 
+/// What a device is to be made with for the pipeline (DO-11), each with the first that uses it.
+#[test]
+fn do_11_check_as_json_lists_the_features_that_the_plan_uses() {
+    let features = |set: &str| -> Vec<(String, String)> {
+        let outcome = Place::new().run(&["check", "forward", "--set", set, "--format", "json"]).exits(0);
+        let answer: serde_json::Value = serde_json::from_str(&outcome.out).expect("JSON");
+        let features = answer["features"].as_array().expect("a list").iter();
+        let text = |value: &serde_json::Value| value.as_str().expect("a text").to_owned();
+        features.map(|feature| (text(&feature["name"]), text(&feature["by"]))).collect()
+    };
+    let plain = features("msaa=1");
+    assert!(plain.is_sorted(), "{plain:?}");
+    assert!(plain.contains(&("synchronization2".to_owned(), "every Plan".to_owned())), "{plain:?}");
+    assert!(
+        plain.iter().any(|(name, by)| name == "dynamicRendering" && by.starts_with("the rendering scope of step "))
+    );
+    let has_samples = |list: &[(String, String)]| list.iter().any(|(name, _)| name == "sampleRateShading");
+    assert!(!has_samples(&plain), "{plain:?}");
+    let place = Place::new();
+    place.file("p.ron", "Pipeline(version: 1, nothing: 2)");
+    let wrong = place.run(&["check", "p.ron", "--format", "json"]).exits(1);
+    let answer: serde_json::Value = serde_json::from_str(&wrong.out).expect("JSON");
+    assert!(answer["features"].is_null(), "{}", wrong.out);
+}
+
 #[test]
 fn the_shipped_copy_and_the_file_give_the_same_plan_and_the_copy_is_said_to_be_one() {
     let place = Place::new();

@@ -1,12 +1,12 @@
 //! Devices that the program made itself.
 
-use crate::arguments::{FramewrightNames, Structure, handle, list, reference, structure};
+use crate::arguments::{FramewrightNames, Structure, free, handle, list, reference, structure};
 use crate::device::{FramewrightDevice, helper_of};
 use crate::last_error::{call, text};
 use crate::status::{FramewrightStatus, Problem};
 use framewright::Device;
 use framewright::vulkan::ash::{self, vk};
-use framewright::vulkan::{AdoptedDevice, Error};
+use framewright::vulkan::{AdoptedDevice, DeviceFeatures, Error};
 use std::ffi::{CStr, CString, c_char};
 use std::ptr;
 
@@ -84,10 +84,7 @@ pub unsafe extern "C" fn framewright_device_adopt(
 /// # Safety
 /// That of [`Device::adopt`], and the fields are as they say.
 unsafe fn adopt(program: &FramewrightAdoptedDevice) -> Result<FramewrightDevice, Problem> {
-    let is_null = |null: bool, what: &str| match null {
-        true => Err(Problem::Misuse(format!("`{what}` of `program` is NULL"))),
-        false => Ok(()),
-    };
+    let is_null = |null: bool, what: &str| is_null(null, &format!("`{what}` of `program`"));
     is_null(program.instance == vk::Instance::null(), "instance")?;
     is_null(program.physical_device == vk::PhysicalDevice::null(), "physical_device")?;
     is_null(program.device == vk::Device::null(), "device")?;
@@ -116,6 +113,83 @@ unsafe fn adopt(program: &FramewrightAdoptedDevice) -> Result<FramewrightDevice,
         };
         Ok(FramewrightDevice::new(Device::adopt(&program, helper.clone())?, helper))
     }
+}
+
+fn is_null(null: bool, what: &str) -> Result<(), Problem> {
+    if null { Err(Problem::Misuse(format!("{what} is NULL"))) } else { Ok(()) }
+}
+
+/// Features and extensions for a device that the program makes, and has the library use.
+pub struct FramewrightFeatures {
+    /// What the chain leads to.
+    _features: Box<DeviceFeatures>,
+    chain: vk::PhysicalDeviceFeatures2<'static>,
+    extensions: Vec<*const c_char>,
+}
+
+/// Tells with which features and extensions the program makes a device that the library is to use: those that
+/// `framewright_renderer_features` lists, or of several renderers all lists together. NULL: all that any renderer uses where the device has
+/// it. It is an error if the device lacks any, or of the latter what the library needs everywhere. `robustBufferAccess` is among the latter
+/// alone: add it where files or shaders of strangers are drawn. Freed by `framewright_features_free`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_features_open(
+    instance: vk::Instance,
+    physical_device: vk::PhysicalDevice,
+    used: *const FramewrightNames,
+    features: *mut *mut FramewrightFeatures,
+) -> FramewrightStatus {
+    let open = || {
+        is_null(instance == vk::Instance::null(), "`instance`")?;
+        is_null(physical_device == vk::PhysicalDevice::null(), "`physical_device`")?;
+        // SAFETY: the system's loader is trusted; the handles and the list are the caller's word.
+        let features = unsafe {
+            let entry = ash::Entry::load().map_err(|error| Error::NoLoader { reason: error.to_string() })?;
+            let instance = ash::Instance::load(entry.static_fn(), instance);
+            match used.as_ref() {
+                None => DeviceFeatures::of(&instance, physical_device)?,
+                Some(used) => DeviceFeatures::exactly(&instance, physical_device, &used.texts("used")?)?,
+            }
+        };
+        let mut features = Box::new(features);
+        let extensions = features.extensions().iter().map(|name| name.as_ptr()).collect();
+        // SAFETY: what the chain leads to stays where it is, and lives as long: both are freed together.
+        let chain = unsafe {
+            std::mem::transmute::<vk::PhysicalDeviceFeatures2<'_>, vk::PhysicalDeviceFeatures2<'static>>(
+                features.chain(),
+            )
+        };
+        Ok(FramewrightFeatures { _features: features, chain, extensions })
+    };
+    // SAFETY: the caller's word.
+    call(|| unsafe { handle(features, "features", open) })
+}
+
+/// The features, chained: for `VkDeviceCreateInfo.pNext` and `FramewrightAdoptedDevice.features`. It lives as long as the handle; NULL for
+/// NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_features_chain(
+    features: *const FramewrightFeatures,
+) -> *const vk::PhysicalDeviceFeatures2<'static> {
+    // SAFETY: the caller's word.
+    unsafe { features.as_ref() }.map_or(ptr::null(), |features| &raw const features.chain)
+}
+
+/// The extensions of the device, for `VkDeviceCreateInfo` and `FramewrightAdoptedDevice.device_extensions`. They live as long as the handle;
+/// none for NULL. A program that presents adds `VK_KHR_swapchain`, if it isn't among them.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_features_extensions(features: *const FramewrightFeatures) -> FramewrightNames {
+    // SAFETY: the caller's word.
+    unsafe { features.as_ref() }.map_or(FramewrightNames::NONE, |features| FramewrightNames {
+        names: features.extensions.as_ptr(),
+        count: features.extensions.len(),
+    })
+}
+
+/// Frees the handle of features.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_features_free(features: *mut FramewrightFeatures) {
+    // SAFETY: the caller's word.
+    unsafe { free(features) };
 }
 
 /// # Safety

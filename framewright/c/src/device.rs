@@ -3,10 +3,12 @@
 use crate::arguments::{Structure, free, handle, optional_text, reference, structure};
 use crate::last_error::{call, text};
 use crate::status::{FramewrightStatus, Problem};
-use framewright::vulkan::{DeviceChoice, helper::Limits};
+use framewright::vulkan::ash::vk;
+use framewright::vulkan::{DeadImages, DeviceChoice, helper::Limits};
 use framewright::{Device, DeviceOptions, Helper};
 use std::ffi::{CString, c_char, c_void};
 use std::ptr;
+use std::sync::OnceLock;
 
 /// A device. Any thread may use it, and several at once. It closes when it and all that was made from it are freed.
 pub struct FramewrightDevice {
@@ -14,6 +16,8 @@ pub struct FramewrightDevice {
     /// The process that compiles the shaders of its renderers.
     pub(crate) helper: Option<Helper>,
     name: CString,
+    /// The images that died, once the program has asked for them.
+    dead: OnceLock<DeadImages>,
 }
 
 /// How to open a device. 0 in a field is its default.
@@ -42,9 +46,12 @@ unsafe impl Structure for FramewrightDeviceOptions {
 /// knows them.
 pub type FramewrightFinding = Option<unsafe extern "C" fn(context: *mut c_void, text: *const c_char)>;
 
+/// Is told an image of the library's that died.
+pub type FramewrightDeadImage = Option<unsafe extern "C" fn(context: *mut c_void, image: vk::Image)>;
+
 impl FramewrightDevice {
     pub(crate) fn new(device: Device, helper: Option<Helper>) -> FramewrightDevice {
-        FramewrightDevice { name: text(&device.summary().name), device, helper }
+        FramewrightDevice { name: text(&device.summary().name), device, helper, dead: OnceLock::new() }
     }
 }
 
@@ -101,6 +108,26 @@ pub unsafe extern "C" fn framewright_device_findings(
             let message = text(&message.located());
             // SAFETY: the caller's word: it takes a text and what is given with it.
             unsafe { tell(context, message.as_ptr()) };
+        }
+        Ok(())
+    })
+}
+
+/// Tells each image of the library's that was destroyed since the last call; the first call begins to look. A program that keeps views of
+/// images that it was told, as by `framewright_pass_image`, destroys those views then: another image may have the same handle later.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_device_dead_images(
+    device: *const FramewrightDevice,
+    tell: FramewrightDeadImage,
+    context: *mut c_void,
+) -> FramewrightStatus {
+    call(|| {
+        // SAFETY: the caller's word.
+        let device = unsafe { reference(device, "device")? };
+        let tell = tell.ok_or_else(|| Problem::Misuse("`tell` is NULL".to_owned()))?;
+        for image in device.dead.get_or_init(|| device.device.follow_images()).take() {
+            // SAFETY: the caller's word: it takes an image and what is given with it.
+            unsafe { tell(context, image) };
         }
         Ok(())
     })

@@ -90,6 +90,28 @@ pub unsafe extern "C" fn framewright_renderer_import_images(
     }
 }
 
+/// Takes buffers of the program's own for the external buffer `name`, from the next frame on. Frames use them in turn: the frame of number
+/// `n` uses the one of number `n % count`, unless `FramewrightSubmission.images` chooses another one. All else is as for
+/// `framewright_renderer_import_images`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_import_buffers(
+    renderer: *mut FramewrightRenderer,
+    name: *const c_char,
+    buffers: *const vk::Buffer,
+    count: usize,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            let (name, buffers) = (text(name, "name")?, list(buffers, count, "buffers")?);
+            if buffers.contains(&vk::Buffer::null()) {
+                return Err(Problem::Misuse("one of the `buffers` is NULL".to_owned()));
+            }
+            Ok(state.executor()?.import_buffers(name, buffers)?)
+        })
+    }
+}
+
 /// Tells Vulkan's image that stood for the image `name` in the last frame, for commands of the program's own.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn framewright_renderer_image(

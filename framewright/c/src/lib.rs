@@ -23,11 +23,15 @@ mod status;
 mod texels;
 mod version;
 
-pub use adopt::{FramewrightAdoptedDevice, FramewrightQueue, framewright_device_adopt};
+pub use adopt::{
+    FramewrightAdoptedDevice, FramewrightFeatures, FramewrightQueue, framewright_device_adopt,
+    framewright_features_chain, framewright_features_extensions, framewright_features_free, framewright_features_open,
+};
 pub use arguments::FramewrightNames;
 pub use device::{
-    FramewrightDevice, FramewrightDeviceOptions, FramewrightFinding, framewright_device_findings,
-    framewright_device_free, framewright_device_name, framewright_device_open,
+    FramewrightDeadImage, FramewrightDevice, FramewrightDeviceOptions, FramewrightFinding,
+    framewright_device_dead_images, framewright_device_findings, framewright_device_free, framewright_device_name,
+    framewright_device_open,
 };
 pub use frames::{
     FramewrightChoice, FramewrightSemaphore, FramewrightSubmission, framewright_renderer_discard,
@@ -35,8 +39,8 @@ pub use frames::{
     framewright_renderer_submit, framewright_renderer_wait,
 };
 pub use images::{
-    FramewrightState, framewright_renderer_image, framewright_renderer_image_info, framewright_renderer_import_images,
-    framewright_renderer_states,
+    FramewrightState, framewright_renderer_image, framewright_renderer_image_info, framewright_renderer_import_buffers,
+    framewright_renderer_import_images, framewright_renderer_states,
 };
 pub use last_error::{FramewrightMistake, framewright_last_error, framewright_last_mistake};
 pub use passes::{
@@ -44,11 +48,13 @@ pub use passes::{
     framewright_pass_image,
 };
 pub use renderer::{
-    FramewrightChange, FramewrightFacts, FramewrightRenderer, FramewrightRendererOptions, FramewrightRotation,
-    FramewrightStereo, framewright_renderer_bind_set, framewright_renderer_files_changed, framewright_renderer_free,
-    framewright_renderer_open, framewright_renderer_reload, framewright_renderer_set, framewright_renderer_set_extent,
-    framewright_renderer_set_facts, framewright_renderer_set_preset, framewright_renderer_set_recorder,
-    framewright_renderer_set_rotation, framewright_renderer_set_scene, framewright_renderer_set_stereo,
+    FramewrightChange, FramewrightFacts, FramewrightFeature, FramewrightRenderer, FramewrightRendererOptions,
+    FramewrightRotation, FramewrightStereo, framewright_renderer_bind_set, framewright_renderer_features,
+    framewright_renderer_files_changed, framewright_renderer_free, framewright_renderer_open,
+    framewright_renderer_reload, framewright_renderer_set, framewright_renderer_set_extent,
+    framewright_renderer_set_facts, framewright_renderer_set_output_format, framewright_renderer_set_preset,
+    framewright_renderer_set_recorder, framewright_renderer_set_rotation, framewright_renderer_set_scene,
+    framewright_renderer_set_stereo,
 };
 pub use scene::{FramewrightScene, framewright_scene_free, framewright_scene_load, framewright_scene_mistake};
 pub use sets::FramewrightSet;

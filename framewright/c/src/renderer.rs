@@ -4,12 +4,13 @@ use crate::arguments::{
     FramewrightNames, Structure, free, from_0, handle, list, optional_text, output, reference, structure, text,
 };
 use crate::device::FramewrightDevice;
-use crate::last_error::call;
+use crate::last_error::{self, call};
 use crate::passes::{Callback, FramewrightRecord};
 use crate::scene::FramewrightScene;
 use crate::sets::{FramewrightSet, program_sets};
 use crate::status::{FramewrightStatus, Problem};
 use framewright::graph::base::Root;
+use framewright::graph::vulkan::Format;
 use framewright::vulkan::ash::vk;
 use framewright::{Facts, RawSet, Renderer, RendererOptions, Rotation, Scene, SceneDrawSource, Stereo, Texels};
 use std::ffi::{c_char, c_void};
@@ -385,6 +386,50 @@ pub unsafe extern "C" fn framewright_renderer_set_rotation(
     unsafe {
         with(renderer, |state| {
             state.renderer.set_rotation(*one_of(&ALL, rotation, "rotation")?);
+            Ok(())
+        })
+    }
+}
+
+/// Tells the format of the images that the program shows the first output in, as those of a swapchain of its own: what the pipeline calls
+/// `format: Output`. `VK_FORMAT_UNDEFINED`: the format that the pipeline has without a window.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_set_output_format(
+    renderer: *mut FramewrightRenderer,
+    format: vk::Format,
+) -> FramewrightStatus {
+    let known = || Format::ALL.iter().find(|known| known.vulkan() == format.as_raw()).copied();
+    let unknown = || Problem::Misuse(format!("there is no `format` of the number {}", format.as_raw()));
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            let none = format == vk::Format::UNDEFINED;
+            state.renderer.set_output_format(if none { None } else { Some(known().ok_or_else(unknown)?) });
+            Ok(())
+        })
+    }
+}
+
+/// Is told a feature that a plan uses: Vulkan's name of it, of the property where none switches it on, or of the extension where it has no
+/// feature; and the first that uses it, in words. Both live until it returns.
+pub type FramewrightFeature =
+    Option<unsafe extern "C" fn(context: *mut c_void, name: *const c_char, used_by: *const c_char)>;
+
+/// Tells each feature of a device that the next frame uses, for `framewright_features_open`. It begins with a plan, as a frame does.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_features(
+    renderer: *mut FramewrightRenderer,
+    tell: FramewrightFeature,
+    context: *mut c_void,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            let tell = tell.ok_or_else(|| Problem::Misuse("`tell` is NULL".to_owned()))?;
+            for used in state.renderer.features()? {
+                let (name, by) = (last_error::text(used.name), last_error::text(&used.by));
+                tell(context, name.as_ptr(), by.as_ptr());
+            }
             Ok(())
         })
     }

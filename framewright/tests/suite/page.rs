@@ -14,6 +14,7 @@ fn the_page_on_embedding_holds_the_examples() {
         "embedding/settings.rs",
         "embedding/imports.rs",
         "embedding/moving.rs",
+        "embedding/exact_device.rs",
     ] {
         let example = format!("examples/{example}");
         assert!(page.contains(&format!("```rust\n{}```", text(&example))), "docs/embedding.md doesn't hold {example}");

@@ -1,5 +1,6 @@
 //! The capabilities of a device.
 
+use super::features::{EVERY_PLAN_USES, SOME_PLANS_USE};
 use super::limits::Limits;
 use super::memory::MemoryNeeds;
 use super::profile_rules;
@@ -68,6 +69,9 @@ pub struct Profile {
         deserialize_with = "profile_rules::where_known"
     )]
     pub features: Option<Vec<String>>,
+    /// Features of the minimum ([`SOME_PLANS_USE`](super::SOME_PLANS_USE)) that a program made the device without, by Vulkan's names.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub without: Vec<String>,
     /// Limits for shaders and buffers; `None` where they aren't known: then nothing exceeds them.
     #[serde(
         default,
@@ -255,9 +259,12 @@ const fn first_type() -> u32 {
 }
 
 impl Profile {
-    /// Whether the device has a feature beyond the minimum, by Vulkan's name. Where its features aren't known none is missed.
+    /// Whether the device has a feature, by Vulkan's name. Where its features beyond the minimum aren't known none is missed.
     #[must_use]
     pub fn has_feature(&self, name: &str) -> bool {
+        if EVERY_PLAN_USES.contains(&name) || SOME_PLANS_USE.contains(&name) {
+            return !self.without.iter().any(|it| it == name);
+        }
         // Clip distances have a number of their own.
         if name == "shaderClipDistance" {
             return self.max_clip_distances.is_none_or(|most| most > 0);

@@ -122,6 +122,15 @@ fn programs_in_c_free_all_that_they_are_given() {
 }
 
 #[test]
+fn do_11_pf_8_a_program_in_c_makes_a_device_with_exactly_what_a_frame_uses() {
+    let Some(program) = program("framewright/c/tests/programs/exact_device.c") else { return };
+    let said = succeeded(&program.run(&[], &VALIDATION));
+    // The layer would print what it finds.
+    assert!(said.contains("dynamicRendering is missed\n"), "{said}");
+    assert!(said.lines().all(|line| line.ends_with(" is missed")), "{said}");
+}
+
+#[test]
 fn wrong_calls_have_their_status_and_their_words() {
     let Some(program) = program("framewright/c/tests/programs/bad_calls.c") else { return };
     succeeded(&program.run(&[], &[]));

@@ -77,4 +77,10 @@ room! {
     /// The least or greatest of texels, anisotropy, images that are mirrored once, and how far mip levels may be moved are features
     /// and limits that not every device has. The message names it.
     SAMPLER_NEEDS = 1114,
+
+    /// The device was made without a feature that the Plan uses.
+    ///
+    /// A device that the program made itself has the features that the program switched on. The message names each that is missing, and
+    /// what uses it. `Plan::features` tells all that a Plan uses before there is a device.
+    NOT_SWITCHED_ON = 1115,
 }

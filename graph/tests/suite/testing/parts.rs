@@ -34,6 +34,7 @@ pub(crate) fn device() -> Profile {
         vertex_layer: true,
         max_clip_distances: Some(8),
         features: None,
+        without: Vec::new(),
         limits: None,
         depth_resolve: vec![ResolveMode::SampleZero],
         refuted_depth_resolve: Vec::new(),

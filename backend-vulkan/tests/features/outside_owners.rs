@@ -1,0 +1,160 @@
+//! Images that two devices share (DO-11): memory of one that the other imports, and owners that change with each frame.
+
+use crate::adopted::{adopted_with, made_with};
+use crate::foreign::{destroy_image, own_image};
+use crate::frames::{Small, Uses, draw, frame, library, on_each_driver, planned, texels};
+use framewright_graph::compile::Options;
+use framewright_graph::frame::{Draw, Frame, Image, Lifetime};
+use framewright_graph::vulkan::{Accesses, Format, Layout, Stages, State, Subresources};
+use framewright_vulkan::ash::{self, khr, vk};
+use framewright_vulkan::{Device, DeviceFeatures, Executor, ExecutorOptions, OutsideOwner};
+use std::ffi::CStr;
+
+const WHOLE: Subresources = Subresources::WHOLE;
+const OPAQUE: vk::ExternalMemoryHandleTypeFlags = vk::ExternalMemoryHandleTypeFlags::OPAQUE_FD;
+const SHARED: State = State { stages: Stages::empty(), accesses: Accesses::empty(), layout: Layout::General };
+
+const SHADERS: &[(&str, &str)] = &[(
+    "double.frag",
+    "#version 460
+    layout(set = 0, binding = 0) uniform usampler2D source;
+    layout(location = 0) out uint color;
+    void main() { color = 2 * texelFetch(source, ivec2(gl_FragCoord.xy), 0).r; }",
+)];
+
+fn shared(before: State, after: Option<State>) -> Image {
+    Image { lifetime: Lifetime::Imported { before, after }, ..Image::new("shared", Format::R32_UINT, 2, 2) }
+}
+
+/// Draws numbers into the image that is shared, and leaves it for the other device.
+fn gives() -> Frame {
+    let mut small = Small::default();
+    let shared = small.image_like(shared(State { layout: Layout::Undefined, ..SHARED }, Some(SHARED)));
+    small.pass(draw("number", Draw::FullScreen).draws(shared, WHOLE, None));
+    small.frame
+}
+
+/// Samples the image that the other device drew into.
+fn takes() -> Frame {
+    let mut small = Small::default();
+    let shared = small.image_like(shared(SHARED, Some(SHARED)));
+    let doubled = small.image("doubled", Format::R32_UINT, [2, 2]);
+    small.pass(draw("double", Draw::FullScreen).samples("source", shared, WHOLE).draws(doubled, WHOLE, None));
+    small.image_output(doubled);
+    small.frame
+}
+
+fn executor(device: &Device, frame: &Frame) -> Executor {
+    let plan = planned(device, frame, &Options::default());
+    Executor::new(device, &plan, &mut library(SHADERS), &ExecutorOptions::default()).expect("an executor")
+}
+
+/// A device with external memory.
+fn sharing(like: &Device) -> (ash::Device, Device) {
+    let (instance, physical) = like.raw_physical();
+    // SAFETY: the physical device belongs to the instance.
+    let mut features = unsafe { DeviceFeatures::of(instance, physical) }.expect("it is enough");
+    let mut extensions: Vec<&CStr> = features.extensions().to_vec();
+    extensions.push(khr::external_memory_fd::NAME);
+    let mut chain = features.chain();
+    let raw = made_with(like, &mut chain, &extensions);
+    let device = adopted_with(like, &raw, &chain, &extensions, &[0], None).expect("it is enough");
+    (raw, device)
+}
+
+/// How the Plan's image is created, for memory that another device has.
+fn image(executor: &Executor, raw: &ash::Device) -> vk::Image {
+    let mut external = vk::ExternalMemoryImageCreateInfo::default().handle_types(OPAQUE);
+    let info = executor.image_info("shared").expect("there is such an image");
+    let info = info.usage(info.usage | vk::ImageUsageFlags::SAMPLED | vk::ImageUsageFlags::COLOR_ATTACHMENT);
+    // SAFETY: the device lives.
+    unsafe { raw.create_image(&info.push_next(&mut external), None) }.expect("an image")
+}
+
+#[test]
+fn do_11_two_devices_share_an_image_that_changes_its_owner() {
+    on_each_driver(|like| {
+        let (instance, physical) = like.raw_physical();
+        // SAFETY: the physical device belongs to the instance.
+        let known = unsafe { instance.enumerate_device_extension_properties(physical) }.unwrap_or_default();
+        if !known.iter().any(|it| it.extension_name_as_c_str() == Ok(khr::external_memory_fd::NAME)) {
+            return eprintln!("SKIPPED: {} shares no memory", like.summary().name);
+        }
+        let ((first_raw, first), (second_raw, second)) = (sharing(like), sharing(like));
+        let (mut gives, mut takes) = (executor(&first, &gives()), executor(&second, &takes()));
+        let images = [image(&gives, &first_raw), image(&takes, &second_raw)];
+        // SAFETY: both images are made alike, on the same physical device; the memory of the first is imported for the second, which
+        // has the same needs.
+        let memories = unsafe {
+            let needs = first_raw.get_image_memory_requirements(images[0]);
+            let kind = needs.memory_type_bits.trailing_zeros();
+            let mut exported = vk::ExportMemoryAllocateInfo::default().handle_types(OPAQUE);
+            let mut dedicated = vk::MemoryDedicatedAllocateInfo::default().image(images[0]);
+            let info = vk::MemoryAllocateInfo::default().allocation_size(needs.size).memory_type_index(kind);
+            let memory = first_raw.allocate_memory(&info.push_next(&mut exported).push_next(&mut dedicated), None);
+            let memory = memory.expect("memory");
+            first_raw.bind_image_memory(images[0], memory, 0).expect("it fits");
+            let functions = khr::external_memory_fd::Device::new(instance, &first_raw);
+            let handle = vk::MemoryGetFdInfoKHR::default().memory(memory).handle_type(OPAQUE);
+            let fd = functions.get_memory_fd(&handle).expect("a handle");
+            let mut imported = vk::ImportMemoryFdInfoKHR::default().handle_type(OPAQUE).fd(fd);
+            let mut dedicated = vk::MemoryDedicatedAllocateInfo::default().image(images[1]);
+            let info = vk::MemoryAllocateInfo::default().allocation_size(needs.size).memory_type_index(kind);
+            let there = second_raw.allocate_memory(&info.push_next(&mut imported).push_next(&mut dedicated), None);
+            let there = there.expect("the handle is one of this driver");
+            second_raw.bind_image_memory(images[1], there, 0).expect("it fits");
+            [memory, there]
+        };
+        // SAFETY: the images are as the Plans say and outlive the executors. Each frame is waited for before the other device goes on.
+        unsafe {
+            gives.import_image("shared", images[0]).expect("it is external");
+            takes.import_image("shared", images[1]).expect("it is external");
+        }
+        gives.set_owner("shared", Some(OutsideOwner::External)).expect("it is external");
+        takes.set_owner("shared", Some(OutsideOwner::External)).expect("it is external");
+        for _ in 0..3 {
+            frame(&mut gives);
+            frame(&mut takes);
+            assert_eq!(texels(&mut takes, "doubled", 0), [0, 2, 20, 22]);
+        }
+        let read =
+            takes.read_image("shared", framewright_graph::vulkan::Aspects::COLOR, 0).expect_err("it was given back");
+        assert!(read.to_string().contains("given back to its outside owner"), "{read}");
+        drop((gives, takes, first, second));
+        // SAFETY: nothing made from the devices is left but these.
+        unsafe {
+            for (raw, (image, memory)) in [&first_raw, &second_raw].into_iter().zip(images.into_iter().zip(memories)) {
+                raw.destroy_image(image, None);
+                raw.free_memory(memory, None);
+                raw.destroy_device(None);
+            }
+        }
+    });
+}
+
+#[test]
+fn do_11_only_what_is_external_has_an_outside_owner_and_foreign_ones_need_the_extension() {
+    on_each_driver(|device| {
+        let mut executor = executor(device, &takes());
+        let unknown = executor.set_owner("doubt", Some(OutsideOwner::External)).expect_err("there is none");
+        assert_eq!(unknown.to_string(), "the Plan has no external image or buffer `doubt`");
+        let (instance, physical) = device.raw_physical();
+        // SAFETY: the physical device belongs to the instance.
+        let known = unsafe { instance.enumerate_device_extension_properties(physical) }.unwrap_or_default();
+        let has = known.iter().any(|it| it.extension_name_as_c_str() == Ok(ash::ext::queue_family_foreign::NAME));
+        match executor.set_owner("shared", Some(OutsideOwner::Foreign)) {
+            Ok(()) => assert!(has),
+            Err(error) => {
+                assert!(!has && error.to_string().contains("created without VK_EXT_queue_family_foreign"), "{error}");
+                return;
+            }
+        }
+        let own = own_image(device);
+        // SAFETY: it is made as the Plan says and outlives the executor; what is in it doesn't matter.
+        unsafe { executor.import_image("shared", own.0).expect("it is external") };
+        executor.set_owner("shared", None).expect("it is external");
+        drop(executor);
+        // SAFETY: the executor was dropped.
+        unsafe { destroy_image(device, own) };
+    });
+}

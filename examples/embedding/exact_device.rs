@@ -1,0 +1,53 @@
+use framewright::vulkan::ash::vk;
+use framewright::vulkan::{AdoptedDevice, DeviceFeatures};
+use framewright::{Device, Renderer, RendererOptions, Scene, SceneDrawSource, Texels};
+use std::error::Error;
+
+/// Draws a scene on a device that is made with exactly what the pipeline's frames use; `device` tells what that is.
+pub(crate) fn draw(device: &Device, scene: &Scene) -> Result<Texels, Box<dyn Error>> {
+    let used = renderer(device, scene)?.features()?;
+    for feature in &used {
+        println!("{} for {}", feature.name, feature.by);
+    }
+    let names: Vec<&str> = used.iter().map(|feature| feature.name).collect();
+    let (instance, physical) = device.raw_physical();
+    // SAFETY: the physical device belongs to the instance, which is one of Vulkan 1.3.
+    let mut exact = unsafe { DeviceFeatures::exactly(instance, physical, &names)? };
+    let extensions = exact.extensions().to_vec();
+    let pointers: Vec<_> = extensions.iter().map(|name| name.as_ptr()).collect();
+    let mut features = exact.chain();
+    let family = device.graphics_queue_family();
+    let queues = [vk::DeviceQueueCreateInfo::default().queue_family_index(family).queue_priorities(&[1.0])];
+    let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues).enabled_extension_names(&pointers);
+    // SAFETY: the physical device has the family, the features and the extensions.
+    let raw = unsafe { instance.create_device(physical, &info.push_next(&mut features), None)? };
+    let program = AdoptedDevice {
+        instance,
+        instance_extensions: &[],
+        physical,
+        device: &raw,
+        device_extensions: &extensions,
+        features: &features,
+        // SAFETY: the device was created with a queue of this family.
+        queues: &[(family, unsafe { raw.get_device_queue(family, 0) })],
+        allocator: None,
+    };
+    let drawn = {
+        // SAFETY: all of it belongs together, and lives until everything that is made from the adopted device is gone.
+        let exact = unsafe { Device::adopt(&program, None)? };
+        let mut renderer = renderer(&exact, scene)?;
+        let mut objects = SceneDrawSource::for_plan(&exact, scene, [64, 36], renderer.prepare()?.plan)?;
+        renderer.frame(&mut objects)?;
+        renderer.read("screen")?
+    };
+    // SAFETY: nothing made from the device is left.
+    unsafe { raw.destroy_device(None) };
+    Ok(drawn)
+}
+
+fn renderer(device: &Device, scene: &Scene) -> Result<Renderer, framewright::Error> {
+    let mut renderer = Renderer::open(device, "forward", RendererOptions::default())?;
+    renderer.set_scene(scene);
+    renderer.set_extent([64, 36])?;
+    Ok(renderer)
+}
