@@ -6,7 +6,7 @@ use super::validator::judge;
 use super::varyings::Varying;
 use crate::base::ShaderStage;
 use crate::process::Verdict;
-use framewright_graph::shader::{Binding, BindingKind, ShaderProblem};
+use framewright_graph::shader::{Binding, ShaderProblem};
 use framewright_graph::vulkan::{Component, Dimension, ImageShape};
 use rspirv::dr::Operand;
 use std::fmt::Write;
@@ -17,6 +17,8 @@ use std::{env, fs};
 
 /// The longest that a module may keep the program.
 const MOST_TIME: Duration = Duration::from_secs(5);
+/// So many words of a module are garbled, all over it.
+const MOST_WORDS: usize = 400;
 /// Bytes that reading a module of at most 64 KiB may take.
 const MOST_BYTES: u64 = 256 << 20;
 
@@ -104,17 +106,19 @@ fn facts(interface: &StageInterface) -> String {
     facts
 }
 
+/// A word that all readers have for the kind.
 fn resource(binding: &Binding) -> &'static str {
-    match &binding.kind {
-        BindingKind::SampledImage(_) | BindingKind::ComparedDepth(_) if binding.separate => "image",
-        BindingKind::SampledImage(_) | BindingKind::ComparedDepth(_) => "combined",
-        BindingKind::Sampler { .. } => "sampler",
-        BindingKind::StorageImage { .. } => "storage_image",
-        BindingKind::UniformBlock(_) => "uniform",
-        BindingKind::StorageBlock { .. } => "storage",
-        BindingKind::InputAttachment { .. } => "input_attachment",
-        BindingKind::Other(_) => "other",
-    }
+    let kind = &binding.kind;
+    let words = [
+        (kind.is_sampled() && binding.separate, "image"),
+        (kind.is_sampled(), "combined"),
+        (kind.is_sampler(), "sampler"),
+        (kind.storage_image().is_some(), "storage_image"),
+        (kind.uniform_block().is_some(), "uniform"),
+        (kind.storage_block().is_some(), "storage"),
+        (kind.is_input_attachment(), "input_attachment"),
+    ];
+    words.into_iter().find(|(is, _)| *is).map_or("other", |(_, word)| word)
 }
 
 fn words(shape: ImageShape) -> String {
@@ -125,8 +129,7 @@ fn words(shape: ImageShape) -> String {
         Dimension::Cube => "Cube",
         Dimension::Buffer => "Buffer",
     };
-    let (samples, layers) =
-        (if shape.multisampled { "MS" } else { "" }, if shape.arrayed { "Array" } else { "" });
+    let (samples, layers) = (if shape.multisampled { "MS" } else { "" }, if shape.arrayed { "Array" } else { "" });
     format!("{dimension}{samples}{layers}")
 }
 
@@ -203,7 +206,8 @@ fn garbled_modules_of_each_compiler_end_neither_the_program_nor_its_time_and_mem
             assert!(memory.bytes_max < MOST_BYTES, "{name}, {what} at byte {at}: {} bytes", memory.bytes_max);
             (read, longest, most) = (read + 1, longest.max(took), most.max(memory.bytes_max));
         };
-        for at in (0..whole.len() / 4).map(|word| word * 4) {
+        let words = whole.len() / 4;
+        for at in (0..words).step_by(words.div_ceil(MOST_WORDS)).map(|word| word * 4) {
             check("cut", at, &whole[..at]);
             for (what, change) in CHANGES {
                 let mut garbled = whole.clone();

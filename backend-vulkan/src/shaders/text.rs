@@ -202,7 +202,8 @@ pub(super) fn functions(text: &str) -> Vec<String> {
     let mut before: Vec<&str> = Vec::new();
     let mut rest = &*code;
     while let Some(first) = rest.chars().next() {
-        let length = if is_letter(first) { rest.find(|it| !is_letter(it)).unwrap_or(rest.len()) } else { first.len_utf8() };
+        let length =
+            if is_letter(first) { rest.find(|it| !is_letter(it)).unwrap_or(rest.len()) } else { first.len_utf8() };
         let (token, behind) = rest.split_at(length);
         rest = behind;
         match first {

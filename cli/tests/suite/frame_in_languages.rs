@@ -16,7 +16,8 @@ struct Way {
 
 const GLSL: Way = Way { name: "GLSL", ending: "", compiler: None };
 const HLSL: Way = Way { name: "HLSL by shaderc", ending: ".hlsl", compiler: None };
-const OTHERS: [Way; 2] = [
+const OTHERS: [Way; 3] = [
+    Way { name: "HLSL by glslang", ending: ".hlsl", compiler: Some(["hlsl=glslangValidator", "glslangValidator"]) },
     Way { name: "HLSL by DXC", ending: ".hlsl", compiler: Some(["hlsl=dxc", "dxc"]) },
     Way { name: "Slang", ending: ".slang", compiler: Some(["slang=slangc -O0", "slangc"]) },
 ];
@@ -29,7 +30,8 @@ fn in_slang(hlsl: &str) -> String {
         let stage = ["CSMain(", "VSMain(", "PSMain("].iter().position(|entry| line.contains(entry));
         let stage = stage.filter(|_| !line.starts_with(' ')).map(|stage| ["compute", "vertex", "fragment"][stage]);
         text += &stage.map_or_else(String::new, |stage| format!("[shader(\"{stage}\")]\n"));
-        let formatted = line.strip_prefix("[[spv::format_").and_then(|rest| rest.split_once("]] [[vk::image_format(\""));
+        let formatted =
+            line.strip_prefix("[[spv::format_").and_then(|rest| rest.split_once("]] [[vk::image_format(\""));
         match formatted.and_then(|(format, rest)| Some((format, rest.split_once("]]")?.1))) {
             Some((format, rest)) => text += &format!("[format(\"{format}\")]{rest}\n"),
             None => text += &format!("{line}\n"),
@@ -76,7 +78,8 @@ fn frame(way: &Way) -> Place {
     for (name, mut text) in pipelines {
         for (stem, shader) in shaders.iter().filter(|_| !way.ending.is_empty()) {
             let file = format!("{stem}{}", way.ending);
-            let vertex = if shader.contains("VSMain(") { format!("vertex: \"{file}:VSMain\", ") } else { String::new() };
+            let vertex =
+                if shader.contains("VSMain(") { format!("vertex: \"{file}:VSMain\", ") } else { String::new() };
             text = text
                 .replace(&format!("FullScreen(\"{stem}\")"), &format!("FullScreen(\"{file}:PSMain\")"))
                 .replace(&format!("dispatch: \"{stem}\""), &format!("dispatch: \"{file}:CSMain\""))
@@ -107,9 +110,10 @@ fn drawn(way: &Way, vulkan: Vulkan, variables: &[(&str, &str)]) -> Option<RgbIma
 /// Compilers contract and reorder sums: a pixel in a thousand may differ by a few steps.
 fn assert_alike(one: &RgbImage, other: &RgbImage, how: &str) {
     assert_eq!(one.dimensions(), other.dimensions());
-    let steps = one.pixels().zip(other.pixels()).map(|(one, other)| {
-        one.0.iter().zip(other.0).map(|(one, other)| one.abs_diff(other)).max().unwrap_or(0)
-    });
+    let steps = one
+        .pixels()
+        .zip(other.pixels())
+        .map(|(one, other)| one.0.iter().zip(other.0).map(|(one, other)| one.abs_diff(other)).max().unwrap_or(0));
     let different: Vec<u8> = steps.filter(|step| *step > 0).collect();
     let worst = different.iter().max().copied().unwrap_or(0);
     println!("{how}: {} pixels differ, by {worst} at most", different.len());
@@ -152,7 +156,8 @@ fn the_example_in_slang_draws_what_the_one_in_hlsl_draws() {
         }
         let pipeline = fs::read_to_string(repository("examples/hlsl/tint.ron")).expect("read");
         place.file("tint.ron", pipeline.replace("tint.hlsl:PSMain", file));
-        let run = ["run", "tint.ron", "--scene", "spheres_and_cubes", "--size", "64x36", "--validate", "-o", "drawn.png"];
+        let run =
+            ["run", "tint.ron", "--scene", "spheres_and_cubes", "--size", "64x36", "--validate", "-o", "drawn.png"];
         let slang = ["--shader-compiler", "slang=slangc -O0"];
         let outcome = place.run_with(&variables, &[&run[..], &slang[..]].concat()).exits(0);
         assert!(outcome.out.contains("validation: silent; "), "{file}: {}", outcome.out);

@@ -1,5 +1,6 @@
 //! Holds what Framewright reads off modules against spirv-cross and spirv-reflect: `reflections FOLDER`, of a folder that
-//! tests/compilers/corpus.sh made. It prints a table, and each kind of disagreement with a few examples.
+//! tests/compilers/corpus.sh made. It prints a table, and each kind of disagreement with a few examples. `reflections FOLDER JUDGE` asks
+//! one of them.
 
 mod facts;
 mod spirv_cross;
@@ -40,15 +41,23 @@ fn main() {
                 std::process::exit(1);
             }
         },
-        [folder] => compare(Path::new(folder)),
+        [folder] => compare(Path::new(folder), ""),
+        [folder, judge] => compare(Path::new(folder), judge),
         _ => eprintln!("reflections FOLDER"),
     }
 }
 
-/// spirv-reflect in a process of its own: it is C, and some modules end it.
+/// spirv-reflect in a process of its own with a bound on its time: it is C, and some modules end it or keep it busy forever.
 fn apart(file: &Path, entry: &str, _: &str) -> Result<Facts, String> {
     let own = std::env::current_exe().map_err(|error| error.to_string())?;
-    let output = Command::new(own).arg("--spirv-reflect").arg(file).arg(entry).output().map_err(|it| it.to_string())?;
+    let output = Command::new("timeout")
+        .arg("5")
+        .arg(own)
+        .arg("--spirv-reflect")
+        .arg(file)
+        .arg(entry)
+        .output()
+        .map_err(|it| it.to_string())?;
     if !output.status.success() {
         let said = String::from_utf8_lossy(&output.stderr);
         return Err(format!("{} {}", output.status, said.lines().next().unwrap_or_default()));
@@ -56,13 +65,13 @@ fn apart(file: &Path, entry: &str, _: &str) -> Result<Facts, String> {
     Ok(facts::of_text(&String::from_utf8_lossy(&output.stdout)))
 }
 
-fn compare(folder: &Path) {
+fn compare(folder: &Path, only: &str) {
     let modules = facts::modules(&folder.join("facts"));
     let mut rows: BTreeMap<(String, &str), Row> = BTreeMap::new();
     let mut different: BTreeMap<(&str, String), (usize, BTreeSet<String>, Vec<String>)> = BTreeMap::new();
     for module in &modules {
         let compiler = module.file.split('/').next().unwrap_or_default().to_owned();
-        for judge in &JUDGES {
+        for judge in JUDGES.iter().filter(|judge| judge.name.contains(only)) {
             let row = rows.entry((compiler.clone(), judge.name)).or_default();
             row.modules.insert(module.file.clone());
             row.entries += 1;

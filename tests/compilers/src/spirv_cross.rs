@@ -38,9 +38,12 @@ fn of_json(json: &Value, entry: &str) -> Facts {
     }) {
         add(&mut facts, "size", "", format!("{} {} {}", size[0], size[1], size[2]));
     }
-    for (key, kind) in
-        [("textures", "combined"), ("separate_images", "image"), ("images", "storage_image"), ("subpass_inputs", "input_attachment")]
-    {
+    for (key, kind) in [
+        ("textures", "combined"),
+        ("separate_images", "image"),
+        ("images", "storage_image"),
+        ("subpass_inputs", "input_attachment"),
+    ] {
         for it in list(json, key) {
             let (at, (component, shape)) = (place(it), shape(text(it, "type")));
             let buffer = shape.starts_with("Buffer") || shape.is_empty() && kind != "input_attachment";
@@ -94,7 +97,6 @@ fn of_json(json: &Value, entry: &str) -> Facts {
     }
     facts
 }
-
 
 /// The members of a uniform block; of a struct that is all of it, those of the struct.
 fn members(facts: &mut Facts, json: &Value, at: &str, ty: &str) {

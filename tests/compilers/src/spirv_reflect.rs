@@ -11,7 +11,8 @@ use std::path::Path;
 /// Reads an entry point.
 pub fn read(file: &Path, entry: &str) -> Result<Facts, String> {
     let bytes = std::fs::read(file).map_err(|error| error.to_string())?;
-    let module = ShaderModule::load_u8_data(&bytes).map_err(str::to_owned)?;
+    let words: Vec<u32> = bytes.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect();
+    let module = ShaderModule::load_u32_data(&as_before_1_4(&words)).map_err(str::to_owned)?;
     let mut facts = Facts::new();
     for binding in module.enumerate_descriptor_bindings(Some(entry)).map_err(str::to_owned)? {
         resource(&mut facts, &binding);
@@ -27,6 +28,35 @@ pub fn read(file: &Path, entry: &str) -> Result<Facts, String> {
         all.iter().for_each(|it| varying(&mut facts, kind, it));
     }
     Ok(facts)
+}
+
+/// The module with entry points that name inputs and outputs alone, as before SPIR-V 1.4: this reader knows no others.
+fn as_before_1_4(words: &[u32]) -> Vec<u32> {
+    const ENTRY_POINT: u32 = 15;
+    const VARIABLE: u32 = 59;
+    let (mut instructions, mut rest) = (Vec::new(), words.get(5..).unwrap_or_default());
+    while let Some((it, behind)) = rest.first().and_then(|first| rest.split_at_checked((first >> 16).max(1) as usize)) {
+        instructions.push(it);
+        rest = behind;
+    }
+    let varying = |id: u32| {
+        let mut variables = instructions.iter().filter(|it| it[0] & 0xffff == VARIABLE && it.get(2) == Some(&id));
+        variables.any(|it| matches!(it.get(3), Some(1 | 3)))
+    };
+    let mut kept = words[..words.len().min(5)].to_vec();
+    for it in &instructions {
+        if it[0] & 0xffff != ENTRY_POINT {
+            kept.extend_from_slice(it);
+            continue;
+        }
+        // The name ends with the word that has a zero byte.
+        let name = it.iter().skip(3).position(|word| word.to_le_bytes().contains(&0)).map_or(it.len(), |at| at + 4);
+        let interface = it[name..].iter().copied().filter(|id| varying(*id));
+        let whole: Vec<u32> = it[..name].iter().copied().chain(interface).collect();
+        kept.push((whole.len() as u32) << 16 | ENTRY_POINT);
+        kept.extend_from_slice(&whole[1..]);
+    }
+    kept
 }
 
 fn resource(facts: &mut Facts, it: &ReflectDescriptorBinding) {

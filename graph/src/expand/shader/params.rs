@@ -23,7 +23,8 @@ pub(in crate::expand) fn give(
             "shader `{shader}` has several blocks for the parameters of pass `{}`: `{first}`, `{second}`",
             pass.name.text
         );
-        let help = format!("put their members into one block, or give one a buffer: `uniform: {{\"{second}\": \"…\"}}`");
+        let help =
+            format!("put their members into one block, or give one a buffer: `uniform: {{\"{second}\": \"…\"}}`");
         errors.push(Diagnostic::new(Code::PARAM_BLOCKS, *named, message).help(help));
         return Vec::new();
     }

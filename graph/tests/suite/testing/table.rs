@@ -376,8 +376,10 @@ impl ShaderInterfaces for Table {
             ]),
             "downsample" | "reinhard" => full_screen(vec![source()]),
             "two_blocks.hlsl" => {
-                let block = |name: &str, binding, members: &[(&str, &str)]| {
-                    Binding { name: name.to_owned(), binding, ..params(members) }
+                let block = |name: &str, binding, members: &[(&str, &str)]| Binding {
+                    name: name.to_owned(),
+                    binding,
+                    ..params(members)
                 };
                 let tint = block("Tint", 1, &[("tint", "vec3"), ("strength", "float")]);
                 full_screen(vec![source(), tint, block("Shape", 2, &[("corners", "float")])])
