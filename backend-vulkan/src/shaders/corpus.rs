@@ -8,7 +8,7 @@ use crate::base::ShaderStage;
 use crate::process::Verdict;
 use framewright_graph::shader::{Binding, ShaderProblem};
 use framewright_graph::vulkan::{Component, Dimension, ImageShape};
-use rspirv::dr::Operand;
+use rspirv::spirv::Op;
 use std::fmt::Write;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -34,16 +34,21 @@ fn modules() -> (PathBuf, Vec<PathBuf>) {
     (folder, files)
 }
 
-/// The entry points of a module with their stages; `None`: one that no pass has.
-fn entry_points(bytes: &[u8]) -> Vec<(String, Option<ShaderStage>)> {
-    let Ok(module) = rspirv::dr::load_bytes(bytes) else { return Vec::new() };
-    let entries = module.entry_points.iter().filter_map(|it| match &it.operands[..] {
-        [Operand::ExecutionModel(model), _, Operand::LiteralString(name), ..] => {
-            Some((name.clone(), ShaderStage::ALL.into_iter().find(|stage| stage.facts().model == *model)))
+/// The entry points of a module that a pass may have, with their stages. They are found in its words: the reader of instructions doesn't
+/// know all that is taken.
+fn entry_points(bytes: &[u8]) -> Vec<(String, ShaderStage)> {
+    let words: Vec<u32> = bytes.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect();
+    let (mut entries, mut rest) = (Vec::new(), words.get(5..).unwrap_or_default());
+    while let Some((it, behind)) = rest.first().and_then(|first| rest.split_at_checked((first >> 16).max(1) as usize)) {
+        rest = behind;
+        let [first, model, _, name @ ..] = it else { continue };
+        let stage = ShaderStage::ALL.into_iter().find(|stage| stage.facts().model as u32 == *model);
+        if let (Some(stage), true) = (stage, first & 0xffff == Op::EntryPoint as u32) {
+            let name: Vec<u8> = name.iter().flat_map(|word| word.to_le_bytes()).take_while(|byte| *byte != 0).collect();
+            entries.push((String::from_utf8_lossy(&name).into_owned(), stage));
         }
-        _ => None,
-    });
-    entries.collect()
+    }
+    entries
 }
 
 /// An entry point as a pass would have it.
@@ -170,7 +175,6 @@ fn facts_of_each_module_are_written_for_other_readers_to_judge() {
             Err(_) => panic!("{name}: a panic"),
         };
         for (entry, stage) in entry_points(&bytes) {
-            let Some(stage) = stage else { continue };
             _ = writeln!(text, "module\t{name}\t{entry}\t{}", &stage.facts().ending[1..]);
             let read = catch_unwind(AssertUnwindSafe(|| interface(&module, stage, Some(&entry))));
             match read.unwrap_or_else(|_| panic!("{name}:{entry}: a panic")) {

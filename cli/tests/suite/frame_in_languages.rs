@@ -99,7 +99,11 @@ fn drawn(way: &Way, vulkan: Vulkan, variables: &[(&str, &str)]) -> Option<RgbIma
     let outcome = place.run_with(variables, &arguments);
     // OpCopyLogical of structures, which slangc writes, is too much for Mesa 22.
     if way.ending == ".slang" && vulkan.is_lavapipe() && outcome.err.contains("creating a pipeline failed") {
-        println!("skipped: {}: {}", way.name, outcome.err.lines().next().unwrap_or_default());
+        println!(
+            "skipped: {}: {}",
+            way.name,
+            outcome.err.lines().find(|line| line.starts_with("error")).unwrap_or_default()
+        );
         return None;
     }
     let outcome = outcome.exits(0);
