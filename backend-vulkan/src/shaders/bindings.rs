@@ -69,6 +69,7 @@ pub(super) fn bindings(
     }
     bindings.sort_by_key(|it| (it.set, it.binding));
     join_pairs(&mut bindings);
+    join_views(&mut bindings);
     if let Some(far) = bindings.iter().find(|it| it.binding >= BINDINGS) {
         return Err(too_far(&far.name, far.binding));
     }
@@ -125,6 +126,25 @@ fn join_pairs(bindings: &mut Vec<Binding>) {
     for image in bindings.iter_mut().filter(|it| joined.contains(&(it.set, it.binding))) {
         image.separate = false;
     }
+}
+
+/// Makes one storage block of several of one name at one place: Slang has one for each type that it reads a `ByteAddressBuffer` by.
+fn join_views(bindings: &mut Vec<Binding>) {
+    bindings.dedup_by(|next, first| {
+        let same = (next.set, next.binding, &next.name) == (first.set, first.binding, &first.name);
+        let (BindingKind::StorageBlock { readable, writable, bytes }, BindingKind::StorageBlock { .. }) =
+            (&mut first.kind, &next.kind)
+        else {
+            return false;
+        };
+        if let (true, Some((reads, writes)), Some((_, least))) = (same, next.kind.storage(), next.kind.storage_block())
+        {
+            *readable |= reads;
+            *writable |= writes;
+            *bytes = least.max(*bytes);
+        }
+        same
+    });
 }
 
 /// Kind and shape of a resource of type `ty`.

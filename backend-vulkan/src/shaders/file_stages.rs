@@ -3,12 +3,14 @@
 use super::by_command;
 use super::compilers::Compilers;
 use super::constants::Constants;
-use super::files::ShaderFiles;
+use super::files::{ShaderFiles, SourceFile};
 use super::macros::{Macros, is_of_glsl};
 use super::module_file::ModuleFile;
 use super::stage_sources::{StageCode, StageSource};
+use super::text;
 use crate::base::ShaderStage;
 use crate::process::CompileJob;
+use framewright_graph::base::nearest;
 use framewright_graph::shader::{FileLanguage, ShaderProblem};
 
 /// A stage that is wanted of a file.
@@ -49,7 +51,8 @@ impl FileStage<'_> {
             text: found.text.clone(),
             macros: macros.iter().filter(|(name, _)| !is_of_glsl(name)).cloned().collect(),
         };
-        let answer = compilers.compile(&job, found, files)?;
+        let answer = compilers.compile(&job, found, files);
+        let answer = answer.map_err(|problem| self.misspelt(entry, found, files).unwrap_or(problem))?;
         let bad = |what: String| by_command::wrote_no_module(compilers.name_of(language), &what);
         let mut module = ModuleFile::compiled(&answer.spirv).map_err(bad)?;
         if language == FileLanguage::Hlsl {
@@ -58,5 +61,24 @@ impl FileStage<'_> {
         // Compilers that are told of one entry point may call it `main`.
         let renamed = compilers.is_told_entry(language) && module.only_entry(stage) == Some("main");
         module.cut(file, stage, entry.filter(|_| !renamed), constants)
+    }
+
+    /// That the file has no such entry point, if a function there has nearly its name. The compiler's own words are of no help then.
+    fn misspelt(&self, entry: Option<&str>, found: &SourceFile, files: &ShaderFiles) -> Option<ShaderProblem> {
+        let named = entry?;
+        let included = text::included(files, found);
+        let texts: Vec<&str> = std::iter::once(found).chain(&included).map(|file| &*file.text).collect();
+        let functions: Vec<String> = texts.iter().flat_map(|text| text::functions(text)).collect();
+        if texts.iter().any(|text| text::words(text).any(|word| word == named)) {
+            return None;
+        }
+        let meant = nearest(named, functions.iter().map(String::as_str))?.to_owned();
+        Some(ShaderProblem::EntryPoint {
+            file: self.file.into(),
+            stage: self.stage.facts().name,
+            named: Some(named.to_owned()),
+            of_stage: [meant].into(),
+            others: [].into(),
+        })
     }
 }

@@ -13,6 +13,7 @@ use super::layers;
 use super::macros::{Macros, PARTS, both_eyes, macros};
 use super::needs::Needed;
 use super::reflect::reflect;
+use super::registers;
 use super::set_layouts::SetLayouts;
 use super::shader_compilers::ShaderCompilers;
 use super::stage_sources::{StageCode, StageSource, StageSources, file_of};
@@ -180,6 +181,11 @@ impl ShaderLibrary {
                 let shipped = usual.shipped;
                 (usual, shipped)
             }
+        };
+        // Who writes GLSL says the bindings of both stages.
+        let fragment = match ShaderName::has_file(name).then(|| registers::beside(&vertex, &fragment)) {
+            Some(moved) => moved.map_err(|what| ShaderProblem::Unsupported { what })?.map_or(fragment, Arc::new),
+            None => fragment,
         };
         let mut interface = match join(&vertex, &fragment) {
             Ok(interface) => interface,

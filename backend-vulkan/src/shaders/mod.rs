@@ -12,6 +12,8 @@ mod compile;
 mod compiler_words;
 mod compilers;
 mod constants;
+#[cfg(test)]
+mod corpus;
 mod coverage;
 mod distances;
 mod extensions;

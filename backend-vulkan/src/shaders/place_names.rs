@@ -10,11 +10,12 @@ use std::collections::{HashMap, HashSet};
 /// Names of a pipeline file have at most so many bytes.
 const LONGEST: usize = 64;
 
-/// Adds the names. A name that two resources of a set share, or two members of a block, counts for none.
+/// Adds the names. A name that two resources of a set share, or two members of a block, counts for none. Variables at one binding are
+/// one resource.
 pub(super) fn add(module: &mut Module) {
     let indexed = IndexedModule::new(module);
     let (mut names, mut blocks) = (Vec::new(), HashSet::new());
-    let mut of_sets: HashMap<(u32, &str), u32> = HashMap::new();
+    let mut of_sets: HashMap<(u32, &str), HashSet<u32>> = HashMap::new();
     let name_of = |variable: u32, it: &Instruction| {
         let own = indexed.name(variable);
         let ty = indexed.pointee(it).and_then(|ty| ty.result_id);
@@ -25,14 +26,14 @@ pub(super) fn add(module: &mut Module) {
         Some((number(Decoration::DescriptorSet)?, number(Decoration::Binding)?))
     };
     for (variable, it) in indexed.variables() {
-        if let Some((set, _)) = place(variable) {
-            *of_sets.entry((set, name_of(variable, it))).or_default() += 1;
+        if let Some((set, binding)) = place(variable) {
+            of_sets.entry((set, name_of(variable, it))).or_default().insert(binding);
         }
     }
     for (variable, it) in indexed.variables() {
         if let Some((set, binding)) = place(variable) {
             let own = name_of(variable, it);
-            if !can_be_written(own) || of_sets[&(set, own)] > 1 {
+            if !can_be_written(own) || of_sets[&(set, own)].len() > 1 {
                 names.push((variable, None, binding_name(set, binding)));
             }
             let block = indexed.pointee(it).filter(|ty| ty.class.opcode == Op::TypeStruct);

@@ -19,7 +19,7 @@ use rspirv::spirv::{BuiltIn, Decoration, ExecutionMode, Op, StorageClass};
 use std::collections::HashSet;
 
 /// The interface of a stage: its bindings and constants, its inputs and its outputs.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct StageInterface {
     /// Its share of the shader's interface.
     pub(super) interface: ShaderInterface,

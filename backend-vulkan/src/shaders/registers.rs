@@ -1,11 +1,13 @@
 //! HLSL numbers textures, samplers, constants, and what is written, each from 0 on. In SPIR-V these numbers may meet: here each
-//! kind gets numbers of its own.
+//! kind gets numbers of its own. And compilers number what each stage uses, and know nothing of the other: here they are put together.
 
 use super::module::{IndexedModule, id, number, storage_class};
-use framewright_graph::shader::{BINDINGS, PASS_SET};
+use super::stages::CompiledStage;
+use framewright_graph::shader::{BINDINGS, Binding, PASS_SET};
+use rspirv::binary::Assemble;
 use rspirv::dr::{Instruction, Module, Operand};
 use rspirv::spirv::{Decoration, Op};
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// A kind of register, which numbers its resources from 0 on. Its number tells it from others.
 #[derive(Clone, Copy)]
@@ -39,6 +41,52 @@ pub(super) fn spread(module: &mut Module) {
             *operand = Operand::LiteralBit32(binding * KINDS + *kind as u32);
         }
     }
+}
+
+/// A fragment stage beside whose resources those of its vertex stage lie: a pass gives them by name, so what has one name lies at one
+/// binding, and what has two doesn't share one. `None`: they lie so.
+///
+/// # Errors
+/// In words: the stage is no SPIR-V.
+pub(super) fn beside(vertex: &CompiledStage, fragment: &CompiledStage) -> Result<Option<CompiledStage>, String> {
+    let places = places_beside(&vertex.reflected.interface.bindings, &fragment.reflected.interface.bindings);
+    if places.iter().all(|(from, to)| from == to) {
+        return Ok(None);
+    }
+    let mut module = rspirv::dr::load_words(&fragment.spirv).map_err(|error| error.to_string())?;
+    let kinds = kinds(&module);
+    for it in &mut module.annotations {
+        let moved = id(it, 0).filter(|variable| kinds.contains_key(variable)).and_then(|_| place(it));
+        if let (Some(to), Some(operand)) = (moved.and_then(|from| places.get(&from)), it.operands.get_mut(2)) {
+            *operand = Operand::LiteralBit32(*to);
+        }
+    }
+    let (file, spirv) = (fragment.file.clone(), module.assemble().into());
+    let mut moved = CompiledStage { file, shipped: fragment.shipped, spirv, reflected: fragment.reflected.clone() };
+    for binding in moved.reflected.interface.bindings.iter_mut().filter(|it| it.set == PASS_SET) {
+        binding.binding = places.get(&binding.binding).copied().unwrap_or(binding.binding);
+    }
+    moved.reflected.interface.bindings.sort_by_key(|it| (it.set, it.binding));
+    Ok(Some(moved))
+}
+
+/// Where each binding of a fragment stage goes.
+fn places_beside(vertex: &[Binding], fragment: &[Binding]) -> BTreeMap<u32, u32> {
+    let of_pass = |all: &[Binding]| all.iter().filter(|it| it.set == PASS_SET).cloned().collect::<Vec<_>>();
+    let (vertex, fragment) = (of_pass(vertex), of_pass(fragment));
+    let mut taken: HashSet<u32> = vertex.iter().chain(&fragment).map(|it| it.binding).collect();
+    let mut places = BTreeMap::new();
+    for it in &fragment {
+        let to = match vertex.iter().find(|other| other.name == it.name) {
+            Some(same) => Some(same.binding),
+            None if vertex.iter().any(|other| other.binding == it.binding) => {
+                (0..BINDINGS).find(|free| taken.insert(*free))
+            }
+            None => None,
+        };
+        places.insert(it.binding, to.unwrap_or(it.binding));
+    }
+    places
 }
 
 /// The binding that an annotation gives.

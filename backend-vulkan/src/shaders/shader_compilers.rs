@@ -93,6 +93,9 @@ const KNOWN: [KnownCompiler; 5] = [
             "-V",
             "--target-env",
             "vulkan1.3",
+            // Its front end of HLSL marks storage blocks as versions up to 1.3 do.
+            "--target-env",
+            "spirv1.3",
             "-S",
             "{ending}",
             "-e",
@@ -116,6 +119,7 @@ const KNOWN: [KnownCompiler; 5] = [
             "-fshader-stage={stage}",
             "-fentry-point={entry}",
             "--target-env=vulkan1.3",
+            "--target-spv=spv1.3",
             "-fauto-bind-uniforms",
             "-I",
             FOLDER,

@@ -193,6 +193,36 @@ pub(super) fn words(text: &str) -> impl Iterator<Item = &str> {
     words.filter(|word| !word.is_empty())
 }
 
+/// The names of the functions of a text in HLSL, Slang or WGSL: a word behind another one and before `(`, outside of all braces.
+pub(super) fn functions(text: &str) -> Vec<String> {
+    let code = without_comments(text);
+    let is_letter = |letter: char| letter == '_' || letter.is_ascii_alphanumeric();
+    let (mut depth, mut functions) = (0_u32, Vec::new());
+    // The words since the last other sign.
+    let mut before: Vec<&str> = Vec::new();
+    let mut rest = &*code;
+    while let Some(first) = rest.chars().next() {
+        let length =
+            if is_letter(first) { rest.find(|it| !is_letter(it)).unwrap_or(rest.len()) } else { first.len_utf8() };
+        let (token, behind) = rest.split_at(length);
+        rest = behind;
+        match first {
+            _ if is_letter(first) => before.push(token),
+            _ if first.is_whitespace() => {}
+            '(' if depth == 0 && before.len() > 1 => functions.extend(before.pop().map(str::to_owned)),
+            '{' => depth += 1,
+            '}' => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        if !is_letter(first) && !first.is_whitespace() {
+            before.clear();
+            // The type may have its own: `vector<float, 4> main(`.
+            before.extend((first == '>').then_some(">"));
+        }
+    }
+    functions
+}
+
 /// What a reader of a text takes as literals, in which no comment begins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Literals {

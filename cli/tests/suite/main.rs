@@ -25,6 +25,7 @@ mod explain;
 mod extend;
 mod facts;
 mod formats;
+mod frame_in_languages;
 mod halves;
 mod helper_process;
 mod image_quality;

@@ -12,5 +12,6 @@ glslangValidator -V --target-env vulkan1.3 -o sized_by_constants.spv sized_by_co
 glslangValidator -D -V --target-env vulkan1.3 -S frag -e main -o sampled_twice.spv sampled_twice.hlsl
 glslangValidator -gVS -V --target-env vulkan1.3 -o with_lines.spv ../spirv_tinted.frag
 slangc post.slang -target spirv -O0 -fvk-use-entrypoint-name -o post_slang.spv
+slangc bytes.slang -target spirv -O0 -fvk-use-entrypoint-name -o bytes_slang.spv
 dxc -spirv -fspv-target-env=vulkan1.3 -T ps_6_0 -E PSMain -Fo post_dxc.spv post.hlsl
 dxc -spirv -fspv-target-env=vulkan1.3 -T cs_6_0 -E CSCull -fspv-debug=vulkan-with-source -fspv-reflect -Zi -Fo append_dxc.spv append.hlsl

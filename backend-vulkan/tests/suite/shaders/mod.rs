@@ -5,6 +5,8 @@ mod commands;
 mod coverage;
 mod exact;
 mod files;
+#[cfg(unix)]
+mod hlsl;
 mod modules;
 mod refusals;
 mod validity;

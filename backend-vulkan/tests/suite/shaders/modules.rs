@@ -9,7 +9,7 @@ use rspirv::dr::{Instruction, Module, Operand};
 use rspirv::spirv::{ExecutionModel, Op};
 
 /// The modules of tests/shaders/spirv, made by its make.sh.
-const MODULES: [(&str, &[u8]); 10] = [
+const MODULES: [(&str, &[u8]); 11] = [
     ("post_hlsl.spv", include_bytes!("../../../../tests/shaders/spirv/post_hlsl.spv")),
     ("post_hlsl_vertices.spv", include_bytes!("../../../../tests/shaders/spirv/post_hlsl_vertices.spv")),
     ("post_stripped.spv", include_bytes!("../../../../tests/shaders/spirv/post_stripped.spv")),
@@ -18,6 +18,7 @@ const MODULES: [(&str, &[u8]); 10] = [
     ("sized_by_constants.spv", include_bytes!("../../../../tests/shaders/spirv/sized_by_constants.spv")),
     ("post_dxc.spv", include_bytes!("../../../../tests/shaders/spirv/post_dxc.spv")),
     ("post_slang.spv", include_bytes!("../../../../tests/shaders/spirv/post_slang.spv")),
+    ("bytes_slang.spv", include_bytes!("../../../../tests/shaders/spirv/bytes_slang.spv")),
     ("append_dxc.spv", include_bytes!("../../../../tests/shaders/spirv/append_dxc.spv")),
     ("sampled_twice.spv", include_bytes!("../../../../tests/shaders/spirv/sampled_twice.spv")),
 ];
@@ -106,6 +107,19 @@ fn what_a_module_holds_for_debuggers_and_readers_alone_is_no_hindrance() {
     assert_eq!(names(&interface), ["items", "large", "params", "counter.var.large"]);
     let storage: Vec<_> = interface.bindings.iter().filter_map(|it| it.kind.storage()).collect();
     assert_eq!(storage, [(true, false), (true, true), (true, true)]);
+}
+
+#[test]
+fn a_buffer_that_is_read_by_several_types_is_one() {
+    let module = rspirv::dr::load_bytes(bytes_of("bytes_slang.spv")).expect("SPIR-V");
+    let named = |name: &str| {
+        let name = Operand::LiteralString(name.to_owned());
+        module.debug_names.iter().filter(|it| it.operands.get(1) == Some(&name)).count()
+    };
+    assert_eq!(named("numbers"), 2, "a variable for each type");
+    let interface = computed_by("bytes_slang.spv").expect("read");
+    let found: Vec<_> = interface.bindings.iter().map(|it| (it.name.as_str(), it.kind.storage())).collect();
+    assert_eq!(found, [("numbers", Some((true, false))), ("sums", Some((true, true)))]);
 }
 
 #[test]

@@ -174,4 +174,10 @@ room! {
     /// A border goes with `address: Border`, and is one of integers where the image holds integers. Anisotropy goes with
     /// `filter: Linear`, and the least mip level lies below the greatest. What is compared has no reduction.
     SAMPLER_UNFIT = 831,
+
+    /// Parameters have several blocks to go into.
+    ///
+    /// A shader in HLSL, Slang, WGSL or SPIR-V has several uniform blocks that the pass gives no buffer, and none of them is called
+    /// `params`. Put their members into one, or give the others buffers.
+    PARAM_BLOCKS = 843,
 }

@@ -1,6 +1,6 @@
 //! A pass and its shader meet: shaders are found, and their needs are given.
 
-use super::arrays;
+use super::{arrays, params};
 use crate::base::{Code, Diagnostic, FilePath, Sources};
 use crate::frame::{Draw, Remark};
 use crate::language::{self, Work};
@@ -179,7 +179,10 @@ pub(in crate::expand) fn missing(
     // Few are compared one by one, many are looked up.
     let many: HashSet<&str> = if given().nth(MANY_GIVEN).is_some() { given().collect() } else { HashSet::new() };
     let is_given = |name: &str| if many.is_empty() { given().any(|given| given == name) } else { many.contains(name) };
-    for binding in interface.bindings.iter().filter(|binding| binding.set == PASS_SET) {
+    // They are told as one mistake.
+    let rivals = params::rivals(pass, interface);
+    let of_pass = interface.bindings.iter().filter(|binding| binding.set == PASS_SET);
+    for binding in of_pass.filter(|binding| !rivals.contains(&&*binding.name)) {
         let name = &binding.name;
         if let Some(UnbindableResource { what, instead, place }) = binding.kind.unbindable() {
             let at = place.as_ref().map_or_else(String::new, |place| format!(" ({place})"));

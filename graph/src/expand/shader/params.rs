@@ -4,7 +4,7 @@ use crate::base::{Code, Diagnostic, nearest, shown_number, suggestion};
 use crate::frame::ParamValue;
 use crate::language;
 use crate::ron::Name;
-use crate::shader::{Block, PARAMS, PASS_SET, ParamMisfit, ParamType, ShaderInterface};
+use crate::shader::{Block, PARAMS, PASS_SET, ParamMisfit, ParamType, ShaderInterface, ShaderName};
 use std::sync::Arc;
 
 /// What a type is that no pipeline file can give.
@@ -18,6 +18,16 @@ pub(in crate::expand) fn give(
     errors: &mut Vec<Diagnostic>,
 ) -> Vec<(Arc<str>, ParamValue)> {
     let Some(Name { text: shader, span: named }) = pass.shader() else { return Vec::new() };
+    if let [first, second, ..] = rivals(pass, interface)[..] {
+        let message = format!(
+            "shader `{shader}` has several blocks for the parameters of pass `{}`: `{first}`, `{second}`",
+            pass.name.text
+        );
+        let help =
+            format!("put their members into one block, or give one a buffer: `uniform: {{\"{second}\": \"…\"}}`");
+        errors.push(Diagnostic::new(Code::PARAM_BLOCKS, *named, message).help(help));
+        return Vec::new();
+    }
     let none = Block::default();
     let block = block(interface).unwrap_or(&none);
     let mut given = Vec::new();
@@ -60,6 +70,19 @@ pub(in crate::expand) fn give(
         }
     }
     given
+}
+
+/// The blocks among which the pass's parameters have no place, since there are several and none is called `params`. Files of
+/// other languages than GLSL call their blocks as they like.
+pub(super) fn rivals<'i>(pass: &language::Pass, interface: &'i ShaderInterface) -> Vec<&'i str> {
+    let from_file = pass.shader().is_some_and(|shader| ShaderName::has_file(&shader.text));
+    if pass.params.is_empty() || !from_file || block(interface).is_some() {
+        return Vec::new();
+    }
+    let is_given = |name: &str| pass.uniform.iter().any(|uniform| *uniform.binding.text == *name);
+    let blocks = interface.bindings.iter().filter(|it| it.set == PASS_SET && it.kind.uniform_block().is_some());
+    let left: Vec<&str> = blocks.map(|it| it.name.as_str()).filter(|name| !is_given(name)).collect();
+    if left.len() > 1 { left } else { Vec::new() }
 }
 
 /// Values as the file has them, for passes that the embedding program records: no block says their types.

@@ -375,6 +375,15 @@ impl ShaderInterfaces for Table {
                 params(&[("brightness", "float")]),
             ]),
             "downsample" | "reinhard" => full_screen(vec![source()]),
+            "two_blocks.hlsl" => {
+                let block = |name: &str, binding, members: &[(&str, &str)]| Binding {
+                    name: name.to_owned(),
+                    binding,
+                    ..params(members)
+                };
+                let tint = block("Tint", 1, &[("tint", "vec3"), ("strength", "float")]);
+                full_screen(vec![source(), tint, block("Shape", 2, &[("corners", "float")])])
+            }
             "look_up" => {
                 let mut texels = storage_image("texels", Dimension::D2, Some(Format::R16G16B16A16_SFLOAT), true);
                 if let BindingKind::StorageImage { writable, .. } = &mut texels.kind {

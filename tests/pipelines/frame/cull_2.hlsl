@@ -1,0 +1,23 @@
+#include "camera.hlsl"
+#include "cull.hlsl"
+
+Texture2D<float> hzb[2];
+ConstantBuffer<CameraData> camera;
+StructuredBuffer<Instance> instances;
+RWStructuredBuffer<uint> list;
+RWStructuredBuffer<uint> args;
+StructuredBuffer<uint> rest;
+StructuredBuffer<uint> rest_count;
+
+[numthreads(64, 1, 1)]
+void CSMain(uint3 id : SV_DispatchThreadID) {
+    uint i = id.x;
+    if (i == 0) { args[0] = 36; }
+    if (i >= rest_count[0]) { return; }
+    float4 sphere = instances[rest[i]].sphere;
+    if (may_be_seen(camera.world_to_clip, camera.place.xyz, sphere, hzb[0]) || may_be_seen(camera.world_to_clip, camera.place.xyz, sphere, hzb[1])) {
+        uint slot;
+        InterlockedAdd(args[1], 1, slot);
+        list[slot] = rest[i];
+    }
+}

@@ -1,0 +1,18 @@
+#include "camera.hlsl"
+
+ConstantBuffer<CameraData> camera;
+StructuredBuffer<Instance> instances;
+StructuredBuffer<uint> list;
+
+// A corner of a cube of side 2.
+float3 corner_of(uint number) {
+    uint face = number / 6;
+    float2 corners[6] = { float2(-1, -1), float2(1, -1), float2(-1, 1), float2(-1, 1), float2(1, -1), float2(1, 1) };
+    float2 c = corners[number % 6];
+    float3 p = float3(c, (face & 1) == 0 ? 1.0 : -1.0);
+    return face < 2 ? p : face < 4 ? p.zxy : p.yzx;
+}
+
+float4 position_of(Instance it, uint number) {
+    return mul(camera.world_to_clip, float4(it.sphere.xyz - camera.place.xyz + corner_of(number) * it.sphere.w, 1.0));
+}

@@ -1,0 +1,4 @@
+Texture2D<float> source;
+SamplerState near;
+
+float PSMain([[vk::location(0)]] float2 uv : TEXCOORD0) : SV_Target0 { return source.SampleLevel(near, uv, 0); }

@@ -1,0 +1,4 @@
+struct Particle {
+    float4 place;
+    float4 speed;
+};

@@ -1,0 +1,15 @@
+// The farthest depth of nine texels, for a level of half the size.
+Texture2D<float> source;
+[[spv::format_r32f]] [[vk::image_format("r32f")]] RWTexture2D<float> target;
+
+[numthreads(8, 8, 1)]
+void CSMain(uint3 id : SV_DispatchThreadID) {
+    uint2 extent, size;
+    target.GetDimensions(extent.x, extent.y);
+    if (any(id.xy >= extent)) { return; }
+    source.GetDimensions(size.x, size.y);
+    int2 last = int2(size) - 1;
+    float farthest = 1.0;
+    for (int i = 0; i < 9; ++i) { farthest = min(farthest, source.Load(int3(min(int2(id.xy) * 2 + int2(i % 3, i / 3), last), 0))); }
+    target[id.xy] = farthest;
+}
