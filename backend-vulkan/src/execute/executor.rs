@@ -115,7 +115,7 @@ impl Executor {
             readbacks: if options.readback { OutputReadback::all(plan, &uses)? } else { Vec::new() },
             frames: Frames::new(gpu, plan, &imports, options)?,
             prepared: PreparedPlan::new(gpu, plan, shaders, options.debugging())?,
-            sets: ProgramSets::default(),
+            sets: ProgramSets::new(shaders.draws().sets()),
             owners: Vec::new(),
             missing: Vec::new(),
             _pipelines: pipelines,
@@ -245,6 +245,7 @@ impl Executor {
         if let Some(name) = self.not_imported() {
             return Err(Error::NotImported { name: name.to_owned() });
         }
+        self.sets.check_all().map_err(|what| Error::BadResource { what })?;
         let of_window = self.owners.iter().find(|(name, _)| images.iter().all(|(chosen, _)| chosen != name));
         if let Some((name, _)) = of_window {
             let what = format!("`{name}` is shown in a window: `present` draws it, or another image is imported first");
@@ -284,7 +285,8 @@ impl Executor {
     /// Binds a set that the program makes itself for all passes whose shaders read the set of this number, in frames from now on, with its
     /// dynamic offsets. It takes the place of the one before. An executor that [goes on](Executor::migrate_from) from this one keeps it.
     ///
-    /// That the set doesn't fit is an error of the frame ([`Error::Recording`]), and so is a set that a shader reads and nobody has bound.
+    /// That the set doesn't fit is an error of the frame ([`Error::Recording`]), and so is a set that a shader reads and nobody has bound. A number
+    /// that the program has told no set of is an error of each frame, too ([`Error::BadResource`]).
     pub fn bind_set(&mut self, number: u32, set: RawSet, offsets: &[u32]) {
         self.sets.bind(number, set, offsets);
     }

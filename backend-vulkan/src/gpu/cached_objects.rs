@@ -9,6 +9,7 @@ use crate::shaders::Spirv;
 use ash::vk;
 use framewright_graph::frame::{Blend, RasterState, StencilState};
 use framewright_graph::plan::DepthState;
+use framewright_graph::shader::VertexRate;
 use framewright_graph::vulkan::{AddressMode, ColorComponents, Filter, Rotation, Sampler};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -132,8 +133,8 @@ pub(crate) struct GraphicsDescriptor {
     /// `None`: nothing but depth is drawn.
     pub(crate) fragment: Option<Spirv>,
     pub(crate) layout: vk::PipelineLayout,
-    /// Bytes from vertex to vertex in each vertex buffer.
-    pub(crate) strides: Vec<u32>,
+    /// The vertex buffers that the attributes are read from.
+    pub(crate) vertex_buffers: Vec<VertexBinding>,
     pub(crate) attributes: Vec<VertexAttribute>,
     pub(crate) formats: ScopeFormats,
     /// How each colour attachment is blended, and which channels of it are written. `None`: it isn't written.
@@ -161,6 +162,15 @@ pub(crate) struct LocalRead {
     pub(crate) locations: Vec<u32>,
     /// The shader's input attachment index of each.
     pub(crate) inputs: Vec<u32>,
+}
+
+/// A vertex buffer of a pipeline.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) struct VertexBinding {
+    pub(crate) binding: u32,
+    /// Bytes from element to element.
+    pub(crate) stride: u32,
+    pub(crate) rate: VertexRate,
 }
 
 /// A vertex attribute.

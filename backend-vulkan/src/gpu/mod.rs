@@ -34,7 +34,7 @@ pub use surface::rotation_of_surface;
 pub use validation::{Message, MessageKind, Messages, Severity};
 
 pub(crate) use cached_objects::{
-    GraphicsDescriptor, LayoutBinding, LocalRead, PipelineDescriptor, PipelineHold, RotationConstants, VertexAttribute,
+    GraphicsDescriptor, LayoutBinding, LocalRead, PipelineDescriptor, PipelineHold, RotationConstants, VertexAttribute, VertexBinding,
 };
 pub(crate) use device::TestedDevice;
 pub(crate) use handle::{Gpu, PendingWork};

@@ -8,13 +8,13 @@ use super::pass_set::PassSets;
 use super::supplied_sets::SuppliedSets;
 use super::variant::{scope_formats, variant};
 use crate::base::{Error, by};
-use crate::gpu::{Gpu, GraphicsDescriptor, LocalRead, PipelineDescriptor, RotationConstants, ScopeFormats};
+use crate::gpu::{Gpu, GraphicsDescriptor, LocalRead, PipelineDescriptor, RotationConstants, ScopeFormats, VertexBinding};
 use crate::pipeline::{
     brought_attributes, check_brought, check_needs, check_outputs, check_program, check_supplied, own_attributes,
 };
 use crate::shaders::{CompiledShader, ShaderLibrary};
 use ash::vk;
-use framewright_graph::frame::{BufferRole, Draw, EyeForm, Groups};
+use framewright_graph::frame::{BufferRole, Draw, EyeForm, Groups, Stereo};
 use framewright_graph::plan::{self, BufferId, Plan, RenderScope};
 use framewright_graph::shader::{DrawInterface, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem};
 use framewright_graph::vulkan::{Accesses, PrimitiveTopology};
@@ -45,8 +45,10 @@ pub(crate) struct PassPipeline {
 pub(crate) struct PassState {
     pub(crate) formats: ScopeFormats,
     pub(crate) supplied: SuppliedSets,
-    /// Bytes from vertex to vertex of what the draw source provides; 0 if the pipeline reads no such vertex buffer.
-    pub(crate) vertex_stride: u32,
+    /// The vertex buffers that the pipeline reads and the draw source provides.
+    pub(crate) vertex_buffers: Vec<VertexBinding>,
+    /// How many vertex buffers the draw source provides.
+    pub(crate) brought_buffers: u32,
     /// As [`crate::shaders::CompiledShader::usual_vertices`].
     pub(crate) usual_vertices: bool,
 }
@@ -188,11 +190,11 @@ pub(super) fn prepare_dispatch(
         .map_err(|problem| Error::Shader { name: pass.shader.to_string(), problem })?;
     // A shader that reads nothing of it isn't held to what the device can bind of it.
     let reads = shader.interface.bindings.iter().any(|binding| binding.set != PASS_SET);
-    let brought = if reads { shaders.brought_along(None) } else { DrawInterface::default() };
+    let brought = if reads { shaders.brought_along(None, &pass.shader) } else { DrawInterface::default() };
     check_brought(&brought).map_err(mismatch)?;
     check_program(&shader.interface, shaders.draws()).map_err(mismatch)?;
     let sets = shaders.draws().sets();
-    check_needs(gpu, &shader.interface, brought.supplied.iter(), sets, 0).map_err(mismatch)?;
+    check_needs(gpu, &shader.interface, &brought, sets, 0).map_err(mismatch)?;
     check_supplied(&shader.interface, &brought).map_err(mismatch)?;
     let size = shader.interface.workgroup_size.unwrap_or([1; 3]);
     let sets = PassSets::new(gpu, plan, pass, &shader.interface.bindings)?;
@@ -228,7 +230,8 @@ pub(super) fn prepare_draw(
         state: PassState {
             formats: formats.clone(),
             supplied: SuppliedSets::default(),
-            vertex_stride: 0,
+            vertex_buffers: Vec::new(),
+            brought_buffers: 0,
             usual_vertices: false,
         },
         vertices: Vec::new(),
@@ -242,28 +245,27 @@ pub(super) fn prepare_draw(
         }
         other => other.map_err(|problem| Error::Shader { name: pass.shader.to_string(), problem })?,
     };
-    let brought = shaders.brought_along(Some(draw));
+    let brought = shaders.brought_along(Some(draw), &pass.shader);
     let targets = targets(plan, scope, pass).map_err(mismatch)?;
     let written: Vec<_> = targets.iter().map(|target| &scope.color()[*target]).collect();
     check_brought(&brought).map_err(mismatch)?;
     check_program(&shader.interface, shaders.draws()).map_err(mismatch)?;
     let sets = shaders.draws().sets();
-    check_needs(gpu, &shader.interface, brought.supplied.iter(), sets, scope.color().len()).map_err(mismatch)?;
+    check_needs(gpu, &shader.interface, &brought, sets, scope.color().len()).map_err(mismatch)?;
     check_supplied(&shader.interface, &brought).map_err(mismatch)?;
     check_outputs(&shader.interface, plan, &written).map_err(mismatch)?;
     check_raster(gpu, &shader.interface, pass).map_err(mismatch)?;
     check_covers(&shader.interface, plan, scope, pass).map_err(mismatch)?;
     let own_vertices = draw.has_own_vertices() && !wanted.is_empty();
-    let (attributes, strides) = if own_vertices {
-        own_attributes(&shader.interface, wanted.len()).map_err(mismatch)?
-    } else {
-        let attributes = brought_attributes(&shader.interface, &brought).map_err(mismatch)?;
-        let strides = if attributes.is_empty() { Vec::new() } else { vec![brought.vertex_stride] };
-        (attributes, strides)
-    };
+    let (attributes, vertex_buffers) = match own_vertices {
+        true => own_attributes(&shader.interface, wanted.len()),
+        false => brought_attributes(&shader.interface, &brought),
+    }
+    .map_err(mismatch)?;
+    check_eyes(plan, scope, &vertex_buffers).map_err(mismatch)?;
     let vertices = if own_vertices { wanted } else { Vec::new() };
     if indices.is_none() {
-        check_reach(plan, draw, &vertices, &strides).map_err(mismatch)?;
+        check_reach(plan, draw, &vertices, &vertex_buffers).map_err(mismatch)?;
     }
     let sets = PassSets::new(gpu, plan, pass, &shader.interface.bindings)?;
     let supplied = SuppliedSets::new(gpu, sets.layout, &shader.interface, &brought, shaders)?;
@@ -280,7 +282,7 @@ pub(super) fn prepare_draw(
         vertex: shader.vertex.clone(),
         fragment: shader.fragment.clone(),
         layout: supplied.layout,
-        strides: strides.clone(),
+        vertex_buffers: vertex_buffers.clone(),
         attributes,
         formats: formats.clone(),
         blend: (0..scope.color().len()).map(|number| blend(&number)).collect(),
@@ -292,10 +294,21 @@ pub(super) fn prepare_draw(
         turned,
     };
     let pipeline = Some(PassPipeline::unmade(PipelineDescriptor::Graphics(descriptor.into())));
-    let brought_stride = if own_vertices { 0 } else { strides.first().copied().unwrap_or(0) };
+    let read = if own_vertices { Vec::new() } else { vertex_buffers };
+    let brought_buffers = u32::try_from(brought.vertex_buffers.len()).unwrap_or(u32::MAX);
     let usual_vertices = shader.usual_vertices;
-    let state = PassState { formats: formats.clone(), supplied, vertex_stride: brought_stride, usual_vertices };
+    let state =
+        PassState { formats: formats.clone(), supplied, vertex_buffers: read, brought_buffers, usual_vertices };
     Ok(PreparedDraw { pipeline, local, state, vertices, ..nothing(sets) })
+}
+
+/// Where instances are both eyes', their numbers aren't those of the elements of a buffer.
+fn check_eyes(plan: &Plan, scope: &RenderScope, buffers: &[VertexBinding]) -> Result<(), String> {
+    let by_instances = matches!(plan.stereo, Stereo::Instanced | Stereo::DoubleWide) && plan.eyes(scope).is_some();
+    if by_instances && buffers.iter().any(|buffer| buffer.rate.is_by_instance()) {
+        return Err("it draws both eyes by instances, and reads vertex attributes by instance".to_owned());
+    }
+    Ok(())
 }
 
 /// The device must have what raster state and blends need, and the shader what they take of it.
@@ -403,9 +416,9 @@ fn fill_gaps(numbers: &mut [u32]) {
 
 /// A draw's vertices must lie within its buffers. The checker has said so of indices. Only the device knows the vertices that
 /// they point to, and it keeps within the buffers.
-fn check_reach(plan: &Plan, draw: Draw, vertices: &[BufferId], strides: &[u32]) -> Result<(), String> {
+fn check_reach(plan: &Plan, draw: Draw, vertices: &[BufferId], read: &[VertexBinding]) -> Result<(), String> {
     let Some([count, _]) = draw.counts() else { return Ok(()) };
-    vertices.iter().zip(strides).try_for_each(|(buffer, stride)| {
+    vertices.iter().zip(read).try_for_each(|(buffer, VertexBinding { stride, .. })| {
         let buffer = &plan.buffers[buffer.0 as usize];
         if u64::from(count) * u64::from(*stride) <= buffer.bytes {
             return Ok(());

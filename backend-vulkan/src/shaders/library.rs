@@ -26,7 +26,7 @@ use framewright_graph::base::{FilePath, Root};
 use framewright_graph::device::{Need, NeedKind};
 use framewright_graph::frame::{Draw, EyeForm};
 use framewright_graph::shader::{
-    Binding, ConstantValue, DrawInterface, DrawInterfaces, DrawKind, PASS_SET, ProgramSet, ShaderInterface,
+    Binding, ConstantValue, DrawInterface, DrawInterfaces, PASS_SET, ProgramSet, ShaderInterface,
     ShaderInterfaces, ShaderName, ShaderProblem, StageName, UnbindableResource, Variant,
 };
 use std::collections::HashMap;
@@ -439,8 +439,8 @@ impl ShaderInterfaces for ShaderLibrary {
         self.compute(name, variant).map(|shader| shader.interface)
     }
 
-    fn brought_along(&self, draw: Option<Draw>) -> DrawInterface {
-        draw.map_or_else(|| self.draws.of_kind(DrawKind::Compute), |draw| self.draws.of(draw))
+    fn brought_along(&self, draw: Option<Draw>, name: &str) -> DrawInterface {
+        self.draws.of_pass(draw, name)
     }
 
     fn program_sets(&self) -> Vec<ProgramSet> {

@@ -1,5 +1,6 @@
 //! The interface of a shader, as data: a backend reads it off SPIR-V; `check` needs it, and no device.
 
+mod brought_vertices;
 mod constant;
 mod draw_interface;
 mod draw_interfaces;
@@ -8,6 +9,7 @@ mod element;
 mod given_names;
 mod interface_file;
 mod interface_sets;
+mod interface_vertices;
 mod needs;
 mod param_type;
 mod place_names;
@@ -25,10 +27,14 @@ use std::collections::HashSet;
 use std::fmt;
 use std::sync::Arc;
 
+pub use brought_vertices::{
+    Attribute, AttributeMisfit, BroughtLocation, VertexBuffer, VertexRate, vertex_needs,
+};
 pub use constant::{ConstantValue, ShaderConstant};
-pub use draw_interface::{Attribute, DrawFault, DrawInterface, DrawPart, SuppliedKind, SuppliedResource};
+pub use draw_interface::{DrawFault, DrawInterface, DrawPart, SuppliedKind, SuppliedResource};
 pub use draw_interfaces::DrawInterfaces;
 pub use draw_kind::DrawKind;
+use draw_kind::InterfaceOf;
 pub use element::{declared_name, element_name, element_of};
 pub use interface_file::LARGEST_INTERFACE;
 pub use needs::resource_needs;
@@ -603,8 +609,8 @@ pub trait ShaderInterfaces {
     fn compute_shader(&mut self, name: &str, variant: &Variant) -> Result<ShaderInterface, ShaderProblem>;
 
     /// The interface of the draw source for `draw` (`None`: for compute shaders); an empty one where the pass has vertices of
-    /// its own.
-    fn brought_along(&self, draw: Option<Draw>) -> DrawInterface;
+    /// its own. `name` is the name of the shader; of a custom pass that by which the program knows it.
+    fn brought_along(&self, draw: Option<Draw>, name: &str) -> DrawInterface;
 
     /// The sets that the program makes and binds itself.
     fn program_sets(&self) -> Vec<ProgramSet> {

@@ -35,6 +35,7 @@ pub(crate) fn device() -> Profile {
         max_clip_distances: Some(8),
         features: None,
         limits: None,
+        vertex_formats: None,
         depth_resolve: vec![ResolveMode::SampleZero],
         refuted_depth_resolve: Vec::new(),
         refuted_layered_depth_resolve: Vec::new(),
