@@ -58,7 +58,7 @@ pub use execute::{Executor, ExecutorOptions, ExternalStates, ResourceState, Sema
 pub use framewright_graph::vulkan::{CullMode, FrontFace};
 pub use gpu::{
     AdoptedDevice, Device, DeviceChoice, DeviceFeatures, DeviceOptions, DeviceSummary, MINIMUM_VERSION, Message,
-    MessageKind, Messages, PipelineCounts, SamplerDescriptor, ScopeFormats, Severity, layer, minimum_features,
+    LocalReads, MessageKind, Messages, PipelineCounts, SamplerDescriptor, ScopeFormats, Severity, layer, minimum_features,
     optional_features, rotation_of_surface,
 };
 /// The allocator of device memory, for programs whose own one serves an [adopted](AdoptedDevice) device.

@@ -60,7 +60,7 @@ pub use framewright_vulkan::{
     BindGroup, Buffer, BufferUsage, CullMode, CustomImage, CustomRecorder, Device, DeviceOptions, DispatchRecorder,
     DrawSource, DynamicBuffer, Executor, ExecutorOptions, FrameReport, FrontFace, Helper, IndexType, Overlay,
     PrecompiledShaders, PresentMode, Presentation, ProgramBuffer, ProgramView, RawSet, Recorder, Resource,
-    SamplerDescriptor, ScopeFormats, SemaphorePoint, SetLayouts, ShaderCompilers, ShaderLibrary, Submission, Surface,
+    LocalReads, SamplerDescriptor, ScopeFormats, SemaphorePoint, SetLayouts, ShaderCompilers, ShaderLibrary, Submission, Surface,
     Swapchain, SwapchainOptions, Texels, Texture,
 };
 pub use options::RendererOptions;

@@ -10,7 +10,7 @@ use super::submission::{SemaphorePoint, Submission};
 use crate::base::Error;
 use crate::gpu::{Device, Gpu, PipelineHold, ScopeFormats};
 use crate::prepare::{
-    Frame, PreparedPlan, Refusals, ResourceUses, StagedTexture, check, scope_formats, stage_textures,
+    Frame, PreparedPlan, Refusals, ResourceUses, StagedTexture, check, stage_textures,
 };
 use crate::record::{DrawSource, FrameReport, GuardedSource};
 use crate::resources::{ProgramSets, RawSet};
@@ -235,9 +235,10 @@ impl Executor {
     /// no rendering scope has such a pass. So the pipelines can be made before the first frame.
     #[must_use]
     pub fn formats(&self, pass: &str) -> Option<ScopeFormats> {
-        let scopes = self.plan.steps.iter().filter_map(|step| step.work.scope());
-        let mut with_pass = scopes.filter(|scope| scope.passes.iter().any(|it| *it.name == *pass));
-        with_pass.next().map(|scope| scope_formats(&self.plan, scope))
+        self.plan.steps.iter().zip(&self.prepared.steps).find_map(|(step, made)| {
+            let number = step.work.scope()?.passes.iter().position(|it| *it.name == *pass)?;
+            Some(made.draws()[number].state.formats.clone())
+        })
     }
 
     /// Makes ready for the next frame, which uses these images of the program's, and returns its number among its own.

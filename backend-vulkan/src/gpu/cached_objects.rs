@@ -117,6 +117,9 @@ pub struct ScopeFormats {
     pub samples: vk::SampleCountFlags,
     /// Views that are drawn at once, a bit for each; 0 where there are none.
     pub view_mask: u32,
+    /// How the pass sees the colour attachments of its scope, where passes of the scope read what it drew; `None`: output locations and
+    /// input attachments have the numbers of the attachments.
+    pub local: Option<LocalReads>,
 }
 
 /// Everything that a pipeline is made of.
@@ -143,7 +146,6 @@ pub(crate) struct GraphicsDescriptor {
     pub(crate) depth: Option<DepthState>,
     pub(crate) stencil: Option<StencilState>,
     pub(crate) alpha_to_coverage: bool,
-    pub(crate) local: Option<LocalRead>,
     pub(crate) turned: Option<RotationConstants>,
 }
 
@@ -155,13 +157,16 @@ pub(crate) struct RotationConstants {
     pub(crate) extent: [u32; 2],
 }
 
-/// How a pass of a rendering scope with local reads sees the scope's colour attachments.
+/// How a pass of a rendering scope with local reads sees the scope's colour attachments: what a pipeline chains to fit, and how it blends.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub(crate) struct LocalRead {
-    /// The shader's output location of each.
-    pub(crate) locations: Vec<u32>,
-    /// The shader's input attachment index of each.
-    pub(crate) inputs: Vec<u32>,
+#[non_exhaustive]
+pub struct LocalReads {
+    /// The shader's output location of each (`VkRenderingAttachmentLocationInfoKHR`).
+    pub locations: Vec<u32>,
+    /// The shader's input attachment index of each (`VkRenderingInputAttachmentIndexInfoKHR`).
+    pub inputs: Vec<u32>,
+    /// Whether the pass draws into each. Of those that it doesn't draw into no channel is written.
+    pub drawn: Vec<bool>,
 }
 
 /// A vertex buffer of a pipeline.

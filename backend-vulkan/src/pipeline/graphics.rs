@@ -93,7 +93,7 @@ pub(super) fn create(gpu: &Gpu, descriptor: &GraphicsDescriptor) -> Result<(vk::
         .color_attachment_formats(&formats.color)
         .depth_attachment_format(formats.depth)
         .stencil_attachment_format(formats.stencil);
-    let local = descriptor.local.as_ref();
+    let local = formats.local.as_ref();
     let mut locations = vk::RenderingAttachmentLocationInfoKHR::default()
         .color_attachment_locations(local.map_or(&[][..], |local| &local.locations[..]));
     let mut inputs = vk::RenderingInputAttachmentIndexInfoKHR::default()

@@ -8,7 +8,7 @@ use super::pass_set::PassSets;
 use super::supplied_sets::SuppliedSets;
 use super::variant::{scope_formats, variant};
 use crate::base::{Error, by};
-use crate::gpu::{Gpu, GraphicsDescriptor, LocalRead, PipelineDescriptor, RotationConstants, ScopeFormats, VertexBinding};
+use crate::gpu::{Gpu, GraphicsDescriptor, LocalReads, PipelineDescriptor, RotationConstants, ScopeFormats, VertexBinding};
 use crate::pipeline::{
     brought_attributes, check_brought, check_needs, check_outputs, check_program, check_supplied, own_attributes,
 };
@@ -27,7 +27,7 @@ pub(crate) struct PreparedDraw {
     /// `None`: a custom draw for which there is no shader, and whose program brings its own pipeline.
     pub(crate) pipeline: Option<PassPipeline>,
     /// How the pass sees the scope's colour attachments; `None` where no pass of the scope reads them locally.
-    pub(crate) local: Option<LocalRead>,
+    pub(crate) local: Option<LocalReads>,
     pub(crate) state: PassState,
     /// The pass's own vertex buffers.
     vertices: Vec<BufferId>,
@@ -221,14 +221,14 @@ pub(super) fn prepare_draw(
         _ => return Err(mismatch("it has several index buffers".to_owned())),
     };
     let indirect = if draw.is_indirect() { Some(indirect(pass).map_err(mismatch)?) } else { None };
-    let formats = scope_formats(plan, scope);
-    let nothing = |sets| PreparedDraw {
+    let targets = targets(plan, scope, pass).map_err(mismatch)?;
+    let nothing = |sets, formats: ScopeFormats| PreparedDraw {
         draw,
         sets,
         pipeline: None,
-        local: None,
+        local: formats.local.clone(),
         state: PassState {
-            formats: formats.clone(),
+            formats,
             supplied: SuppliedSets::default(),
             vertex_buffers: Vec::new(),
             brought_buffers: 0,
@@ -241,12 +241,12 @@ pub(super) fn prepare_draw(
     let form = plan.eyes(scope);
     let shader = match shaders.compiled(&pass.shader, draw, &variant(plan, pass, Some(scope))?) {
         Err(ShaderProblem::Missing { .. }) if draw.is_custom() => {
-            return Ok(nothing(PassSets::empty(gpu)?));
+            let local = local_reads(gpu, scope, pass, None, &targets).map_err(mismatch)?;
+            return Ok(nothing(PassSets::empty(gpu)?, ScopeFormats { local, ..scope_formats(plan, scope) }));
         }
         other => other.map_err(|problem| Error::Shader { name: pass.shader.to_string(), problem })?,
     };
     let brought = shaders.brought_along(Some(draw), &pass.shader);
-    let targets = targets(plan, scope, pass).map_err(mismatch)?;
     let written: Vec<_> = targets.iter().map(|target| &scope.color()[*target]).collect();
     check_brought(&brought).map_err(mismatch)?;
     check_program(&shader.interface, shaders.draws()).map_err(mismatch)?;
@@ -269,7 +269,8 @@ pub(super) fn prepare_draw(
     }
     let sets = PassSets::new(gpu, plan, pass, &shader.interface.bindings)?;
     let supplied = SuppliedSets::new(gpu, sets.layout, &shader.interface, &brought, shaders)?;
-    let local = local_read(gpu, scope, pass, &shader, &targets).map_err(mismatch)?;
+    let local = local_reads(gpu, scope, pass, Some(&shader), &targets).map_err(mismatch)?;
+    let formats = ScopeFormats { local, ..scope_formats(plan, scope) };
     let blend = |number: &usize| {
         let blend = pass.blend.get(*number).filter(|_| targets.contains(number))?;
         Some((*blend, pass.write_mask(*number)))
@@ -290,7 +291,6 @@ pub(super) fn prepare_draw(
         depth: pass.depth,
         stencil: pass.stencil,
         alpha_to_coverage: pass.alpha_to_coverage,
-        local: local.clone(),
         turned,
     };
     let pipeline = Some(PassPipeline::unmade(PipelineDescriptor::Graphics(descriptor.into())));
@@ -299,7 +299,7 @@ pub(super) fn prepare_draw(
     let usual_vertices = shader.usual_vertices;
     let state =
         PassState { formats: formats.clone(), supplied, vertex_buffers: read, brought_buffers, usual_vertices };
-    Ok(PreparedDraw { pipeline, local, state, vertices, ..nothing(sets) })
+    Ok(PreparedDraw { pipeline, state, vertices, ..nothing(sets, formats) })
 }
 
 /// Where instances are both eyes', their numbers aren't those of the elements of a buffer.
@@ -367,21 +367,25 @@ fn targets(plan: &Plan, scope: &RenderScope, pass: &plan::Pass) -> Result<Vec<us
     Ok(targets)
 }
 
-/// How the pass sees the scope's colour attachments; `None` if its shader's locations are theirs, and it reads none.
-fn local_read(
+/// How the pass sees the scope's colour attachments; `None` if its shader's locations are theirs, and it reads none. A pass without
+/// shader, for which the program has pipelines, reads an attachment by the attachment's own number.
+fn local_reads(
     gpu: &Gpu,
     scope: &RenderScope,
     pass: &plan::Pass,
-    shader: &CompiledShader,
+    shader: Option<&CompiledShader>,
     targets: &[usize],
-) -> Result<Option<LocalRead>, String> {
+) -> Result<Option<LocalReads>, String> {
     let mut inputs = vec![vk::ATTACHMENT_UNUSED; scope.color().len()];
     for access in &pass.accesses {
         let Some(binding) = access.binding.as_ref().filter(|it| it.kind.is_input_attachment()) else {
             continue;
         };
-        let index = shader.input_attachments.iter().find(|(name, _)| **name == *binding.name).map(|(_, index)| *index);
         let attachment = scope.color().iter().position(|it| it.image == access.image);
+        let index = match shader {
+            Some(shader) => shader.input_attachments.iter().find(|(name, _)| **name == *binding.name).map(|it| it.1),
+            None => attachment.and_then(|number| u32::try_from(number).ok()),
+        };
         let (Some(index), Some(attachment)) = (index, attachment) else {
             return Err(format!("`{}` is no input attachment of a colour attachment of its scope", binding.name));
         };
@@ -401,7 +405,8 @@ fn local_read(
     }
     fill_gaps(&mut locations);
     fill_gaps(&mut inputs);
-    Ok(Some(LocalRead { locations, inputs }))
+    let drawn = (0..scope.color().len()).map(|number| targets.contains(&number)).collect();
+    Ok(Some(LocalReads { locations, inputs, drawn }))
 }
 
 /// Gives numbers that are left over to attachments that the pass doesn't use: SwiftShader takes `VK_ATTACHMENT_UNUSED` for an

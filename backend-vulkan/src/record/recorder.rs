@@ -118,7 +118,8 @@ impl<'f> Recorder<'f> {
         self.plan.params.iter().find(|param| *param.name == *name).map(|param| param.value.clone())
     }
 
-    /// What pipelines of the program's own must fit to be bound here. [`crate::Executor::formats`] tells it before the first frame.
+    /// What pipelines of the program's own must fit to be bound here, as the pass sees its scope: in a scope with local reads the colours of
+    /// the scope aren't those of the pass ([`ScopeFormats::local`]). [`crate::Executor::formats`] tells it before the first frame.
     #[must_use]
     pub fn formats(&self) -> &ScopeFormats {
         &self.pass.formats
