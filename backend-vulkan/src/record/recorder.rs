@@ -315,6 +315,9 @@ impl<'f> Recorder<'f> {
 
     /// What a draw would read beyond its vertex buffers, in words.
     fn beyond(&self, vertices: Option<&Range<u32>>, instances: &Range<u32>) -> Option<String> {
+        if instances.is_empty() {
+            return None;
+        }
         self.pass.vertex_buffers.iter().find_map(|VertexBinding { binding, stride, rate }| {
             let (elements, what, range) = match (rate, vertices) {
                 (VertexRate::Vertex, None) => return None,
