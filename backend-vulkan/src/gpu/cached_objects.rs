@@ -18,7 +18,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 pub(crate) struct Caches {
     pub(crate) samplers: ObjectCache<(SamplerDescriptor, Sampler), vk::Sampler>,
     pub(crate) set_layouts: ObjectCache<Vec<LayoutBinding>, vk::DescriptorSetLayout>,
-    pub(crate) pipeline_layouts: ObjectCache<Vec<vk::DescriptorSetLayout>, vk::PipelineLayout>,
+    /// By set layouts, and the bytes of push constants.
+    pub(crate) pipeline_layouts: ObjectCache<(Vec<vk::DescriptorSetLayout>, u32), vk::PipelineLayout>,
     pub(crate) pipelines: ObjectCache<PipelineDescriptor, vk::Pipeline>,
     /// How many hold on to pipelines.
     holders: Mutex<u32>,

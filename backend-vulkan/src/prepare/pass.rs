@@ -10,13 +10,14 @@ use super::variant::{scope_formats, variant};
 use crate::base::{Error, by};
 use crate::gpu::{Gpu, GraphicsDescriptor, LocalReads, PipelineDescriptor, RotationConstants, ScopeFormats, VertexBinding};
 use crate::pipeline::{
-    brought_attributes, check_brought, check_needs, check_outputs, check_program, check_supplied, own_attributes,
+    brought_attributes, check_brought, check_needs, check_outputs, check_program, check_pushed, check_supplied,
+    own_attributes,
 };
 use crate::shaders::{CompiledShader, ShaderLibrary};
 use ash::vk;
 use framewright_graph::frame::{BufferRole, Draw, EyeForm, Groups, Stereo};
 use framewright_graph::plan::{self, BufferId, Plan, RenderScope};
-use framewright_graph::shader::{DrawInterface, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem};
+use framewright_graph::shader::{DrawInterface, PASS_SET, PushedBlock, ShaderInterface, ShaderInterfaces, ShaderProblem};
 use framewright_graph::vulkan::{Accesses, PrimitiveTopology};
 use std::sync::Arc;
 
@@ -49,6 +50,10 @@ pub(crate) struct PassState {
     pub(crate) vertex_buffers: Vec<VertexBinding>,
     /// How many vertex buffers the draw source provides.
     pub(crate) brought_buffers: u32,
+    /// The blocks of push constants that its stages read.
+    pub(crate) pushed: Vec<PushedBlock>,
+    /// The bytes of push constants that the draw source provides; 0 if no stage reads any.
+    pub(crate) pushed_bytes: u32,
     /// As [`crate::shaders::CompiledShader::usual_vertices`].
     pub(crate) usual_vertices: bool,
 }
@@ -232,6 +237,8 @@ pub(super) fn prepare_draw(
             supplied: SuppliedSets::default(),
             vertex_buffers: Vec::new(),
             brought_buffers: 0,
+            pushed: Vec::new(),
+            pushed_bytes: 0,
             usual_vertices: false,
         },
         vertices: Vec::new(),
@@ -254,6 +261,8 @@ pub(super) fn prepare_draw(
     check_needs(gpu, &shader.interface, &brought, sets, scope.color().len()).map_err(mismatch)?;
     check_supplied(&shader.interface, &brought).map_err(mismatch)?;
     check_outputs(&shader.interface, plan, &written).map_err(mismatch)?;
+    let parts = !plan.variant(pass, Some(scope)).parts.is_empty();
+    check_pushed(&shader.interface, &brought, parts).map_err(mismatch)?;
     check_raster(gpu, &shader.interface, pass).map_err(mismatch)?;
     check_covers(&shader.interface, plan, scope, pass).map_err(mismatch)?;
     let own_vertices = draw.has_own_vertices() && !wanted.is_empty();
@@ -297,8 +306,17 @@ pub(super) fn prepare_draw(
     let read = if own_vertices { Vec::new() } else { vertex_buffers };
     let brought_buffers = u32::try_from(brought.vertex_buffers.len()).unwrap_or(u32::MAX);
     let usual_vertices = shader.usual_vertices;
-    let state =
-        PassState { formats: formats.clone(), supplied, vertex_buffers: read, brought_buffers, usual_vertices };
+    let pushed = shader.interface.pushed.clone();
+    let pushed_bytes = if pushed.is_empty() { 0 } else { brought.pushed_bytes() };
+    let state = PassState {
+        formats: formats.clone(),
+        supplied,
+        vertex_buffers: read,
+        brought_buffers,
+        pushed,
+        pushed_bytes,
+        usual_vertices,
+    };
     Ok(PreparedDraw { pipeline, state, vertices, ..nothing(sets, formats) })
 }
 

@@ -27,6 +27,7 @@ impl<'f> BoundSets<'f> {
     ) -> BoundSets<'f> {
         held.bound.clear();
         held.vertices.clear();
+        held.pushed.clear();
         let for_all = |number, set: &SuppliedSet| set.program.is_some() && program.of(number).is_some();
         let bound = (1..).zip(&supplied.sets).map(|(number, set)| !set.is_read || for_all(number, set));
         held.bound.extend(bound);

@@ -16,6 +16,8 @@ pub(crate) struct HeldResources {
     pub(super) bound: Vec<bool>,
     /// The vertex buffers that are bound for the pass that is being recorded: the number of each, and its bytes from where it is read on.
     pub(super) vertices: Vec<(u32, u64)>,
+    /// By word of four bytes: whether the push constant is set for the pass that is being recorded.
+    pub(super) pushed: Vec<bool>,
 }
 
 /// Resources in the order in which a frame's commands use them. What a frame uses as the frame before did stays as it is, since

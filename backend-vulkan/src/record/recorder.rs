@@ -6,6 +6,7 @@ use super::custom_image::{CustomImage, named_buffer};
 use super::frame_resources::HeldResources;
 use crate::base::numbers;
 use crate::gpu::{ScopeFormats, VertexBinding};
+use crate::pipeline::PARTS_STAGES;
 use crate::prepare::{Frame, PassState, PreparedDraw};
 use crate::resources::{BindGroup, Buffer, RawSet};
 use ash::vk;
@@ -213,6 +214,28 @@ impl<'f> Recorder<'f> {
         unsafe { self.canvas.gpu.raw.cmd_bind_index_buffer(self.canvas.commands, buffer.0.raw, 0, ty) };
     }
 
+    /// Sets push constants from byte `offset` on, for the draws of this pass from now on: as the draw interface tells them. Both are multiples
+    /// of 4. Where no stage of the pass reads any they are left out.
+    pub fn push_constants(&mut self, offset: u32, bytes: &[u8]) {
+        let most = self.pass.pushed_bytes;
+        let whole = offset.is_multiple_of(4) && bytes.len().is_multiple_of(4);
+        let end = u64::from(offset) + bytes.len() as u64;
+        if most == 0 || bytes.is_empty() {
+            return;
+        }
+        if !whole || end > u64::from(most) {
+            let length = bytes.len();
+            return self.misused(|| format!("{length} bytes of push constants from byte {offset} on: there are {most}, set by four"));
+        }
+        let words = (offset / 4) as usize..(offset / 4) as usize + bytes.len() / 4;
+        let pushed = &mut self.sets.held.pushed;
+        pushed.resize((most / 4) as usize, false);
+        pushed[words].fill(true);
+        let layout = self.pass.supplied.layout;
+        // SAFETY: the command buffer is being recorded, and the layout has so many bytes, which these stages see.
+        unsafe { self.canvas.gpu.raw.cmd_push_constants(self.canvas.commands, layout, PARTS_STAGES, offset, bytes) };
+    }
+
     /// Says which faces are left out from now on.
     pub fn set_cull_mode(&mut self, mode: CullMode) {
         self.canvas.set_cull_mode(mode);
@@ -352,6 +375,11 @@ impl<'f> Recorder<'f> {
             self.misused(|| format!("a draw without pipeline: there is no shader `{shader}`"));
         }
         let unbound = self.pass.vertex_buffers.iter().find(|buffer| self.bound_bytes(buffer.binding).is_none());
+        let is_set = |word: u32| self.sets.held.pushed.get(word as usize).is_some_and(|set| *set);
+        let unset = self.pass.pushed.iter().find(|it| !(it.offset / 4..it.end.div_ceil(4)).all(is_set));
+        if let Some(name) = unset.map(|block| block.name.clone()) {
+            self.misused(|| format!("a draw without all push constants of `{name}`"));
+        }
         match unbound.map(|buffer| buffer.binding) {
             None => {}
             Some(0) => self.misused(|| "a draw without vertex buffer".to_owned()),

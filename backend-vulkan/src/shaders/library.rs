@@ -12,6 +12,7 @@ use super::files::{ShaderFiles, SourceFile};
 use super::layers;
 use super::macros::{Macros, PARTS, both_eyes, macros};
 use super::needs::Needed;
+use super::program_supply::ProgramSupply;
 use super::reflect::reflect;
 use super::set_layouts::SetLayouts;
 use super::shader_compilers::ShaderCompilers;
@@ -78,8 +79,8 @@ pub struct CompiledCompute {
 pub struct ShaderLibrary {
     sources: StageSources,
     draws: DrawInterfaces,
-    /// The numbers of the sets that the program binds itself.
-    program_sets: Vec<u32>,
+    /// What the program supplies to all shaders.
+    program: ProgramSupply,
     /// Their layouts, as far as the program has made them.
     set_layouts: SetLayouts,
     compilers: Compilers,
@@ -107,9 +108,9 @@ impl ShaderLibrary {
     ) -> ShaderLibrary {
         let draws = draws.into();
         let sources = StageSources::new(ShaderFiles { roots, shipped, modules: Vec::new() });
-        let program_sets = draws.sets().iter().map(|set| set.set).collect();
+        let program = ProgramSupply::of(&draws);
         let (set_layouts, compilers) = (SetLayouts::default(), Compilers::new(None, None));
-        ShaderLibrary { sources, draws, program_sets, set_layouts, compilers, stages: HashMap::new() }
+        ShaderLibrary { sources, draws, program, set_layouts, compilers, stages: HashMap::new() }
     }
 
     /// Has shaders compiled in a helper process, which bounds what they can take, and keeps them in its cache. Without a helper
@@ -308,7 +309,7 @@ impl ShaderLibrary {
         let StageSource { found, .. } = source;
         let (name, stage, macros, both, in_layers, constants) = key;
         let stage = *stage;
-        let (compilers, files, program_sets) = (&mut self.compilers, &self.sources.files, &self.program_sets);
+        let (compilers, files, program) = (&mut self.compilers, &self.sources.files, &self.program);
         let unsupported = |refused: RefusedStage| ShaderProblem::Unsupported { what: refused.placed(files, found) };
         if let StageName::File { file, entry } = name {
             let wanted = FileStage { file, entry: entry.as_deref(), stage, macros, constants };
@@ -335,7 +336,7 @@ impl ShaderLibrary {
             let refused = both.and_then(|both| {
                 let text = both.around_without_location(&found.text, stage);
                 let compiled = compilers.compile(&CompileJob { text, ..job.clone() }, found, files).ok()?;
-                reflect(stage, &compiled.spirv, parts, true, program_sets).err()
+                reflect(stage, &compiled.spirv, parts, true, program).err()
             });
             refused.map_or(problem, unsupported)
         })?;
@@ -361,7 +362,7 @@ impl ShaderLibrary {
         if let (true, Verdict::Invalid(finding)) = (code.is_foreign(), &verdict) {
             return Err(ShaderProblem::Unsupported { what: invalid(finding, files, found) });
         }
-        let reflected = reflect(stage, &spirv, tells_parts(macros), both.is_some(), &self.program_sets);
+        let reflected = reflect(stage, &spirv, tells_parts(macros), both.is_some(), &self.program);
         let mut reflected = reflected.map_err(unsupported)?;
         // A resource that no pass can give is refused later, in better words.
         let is_refused = |binding: &Binding| binding.kind.unbindable().is_some();

@@ -5,8 +5,8 @@ use crate::frames::{Small, Uses, draw, on_each_driver, planned, texels, to_bytes
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{Draw, DrawList, Pass, RasterState};
 use framewright_graph::plan::Plan;
-use framewright_graph::shader::{Attribute, DrawInterface, DrawInterfaces, DrawKind, VertexBuffer, VertexRate};
-use framewright_graph::vulkan::{Format, PrimitiveTopology, Subresources, VertexFormat};
+use framewright_graph::shader::{Attribute, DrawInterface, DrawInterfaces, DrawKind, PushConstants, VertexBuffer, VertexRate};
+use framewright_graph::vulkan::{Format, PrimitiveTopology, Stages, Subresources, VertexFormat};
 use framewright_vulkan::{
     Buffer, BufferUsage, Device, DrawSource, Error, Executor, ExecutorOptions, IndexType, Recorder, ShaderLibrary,
 };
@@ -375,5 +375,93 @@ fn a_draw_source_draws_strips_fans_lines_and_points() {
         assert_eq!(of(PrimitiveTopology::LineList, false, &mut Plain::new(device, &rows, &[])), wanted);
         let strips: Vec<u32> = (0..16).flat_map(|at| [2 * at, 2 * at + 1, u32::MAX]).collect();
         assert_eq!(of(PrimitiveTopology::LineStrip, true, &mut Plain::new(device, &rows, &strips)), wanted);
+    });
+}
+
+const PUSHED: &[(&str, &str)] = &[
+    (
+        "pushed.vert",
+        "#version 460
+        layout(push_constant) uniform Place { layout(offset = 16) vec2 shift; } place;
+        void main() {
+            vec2 corner = vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1);
+            gl_Position = vec4(corner - 1.0 + place.shift, 0.0, 1.0);
+        }",
+    ),
+    (
+        "pushed.frag",
+        "#version 460
+        layout(push_constant) uniform Number { uint number; } given;
+        layout(location = 0) out uint color;
+        void main() { color = given.number; }",
+    ),
+];
+
+/// A number for the fragment stage, and a place for the vertex stage.
+fn pushing() -> DrawInterface {
+    DrawInterface {
+        push_constants: vec![
+            PushConstants::new(0, 4).for_stages(Stages::FRAGMENT_SHADER),
+            PushConstants::new(16, 8).for_stages(Stages::VERTEX_SHADER),
+        ],
+        ..DrawInterface::default()
+    }
+}
+
+/// Draws a square of a number in each quarter, but for what is left out.
+struct Pushes {
+    number: bool,
+    shift: &'static [f32],
+}
+
+impl DrawSource for Pushes {
+    fn record(&mut self, _: Draw, recorder: &mut Recorder<'_>) -> Result<u32, Error> {
+        for quarter in QUARTERS {
+            if self.number {
+                recorder.push_constants(0, &value(quarter).to_ne_bytes());
+            }
+            let at = quarter.0.map(|it| it + 0.5);
+            let bytes = at.iter().chain(self.shift).flat_map(|it| it.to_ne_bytes()).collect::<Vec<_>>();
+            recorder.push_constants(16, &bytes);
+            recorder.draw(0..4, 0..1);
+        }
+        Ok(4)
+    }
+}
+
+#[test]
+fn push_constants_tell_draws_what_attributes_tell_them() {
+    on_each_driver(|device| {
+        let wanted = drawn(device, "plain", plain(), &mut Plain::quarters(device)).expect("a picture");
+        let raster = RasterState { topology: PrimitiveTopology::TriangleStrip, ..RasterState::default() };
+        let plan = plan(device, |pass| Pass { raster, ..pass }, ("pushed", OBJECTS));
+        let executor = |draws: DrawInterface| {
+            let options = ExecutorOptions { readback: true, ..ExecutorOptions::default() };
+            let mut shaders = ShaderLibrary::new(Vec::new(), PUSHED, move |_| draws.clone());
+            Executor::new(device, &plan, &mut shaders, &options)
+        };
+        let mut drawn = executor(pushing()).expect("an executor");
+        drawn.frame(&mut Pushes { number: true, shift: &[] }).expect("a frame");
+        assert_eq!(texels(&mut drawn, "shown", 0), wanted);
+        let mut refused = |source: &mut Pushes| drawn.frame(source).expect_err("a refusal").to_string();
+        let said = |what: &str| format!("pass `pushed`, while recording: {what}");
+        let unset = refused(&mut Pushes { number: false, shift: &[] });
+        assert_eq!(unset, said("a draw without all push constants of `given`"), "not those of the frame before");
+        let beyond = refused(&mut Pushes { number: true, shift: &[0.0] });
+        assert_eq!(beyond, said("12 bytes of push constants from byte 16 on: there are 24, set by four"));
+        let mut short = pushing();
+        short.push_constants[1].bytes = 4;
+        let said = executor(short).map(drop).expect_err("a refusal").to_string();
+        assert!(said.contains("push constants `place`") && said.contains("bytes 16 to 19"), "{said}");
+        let mut other = pushing();
+        other.push_constants.remove(0);
+        let said = executor(other).map(drop).expect_err("a refusal").to_string();
+        assert!(said.contains("push constants `given`") && said.contains("is brought none"), "{said}");
+        let none = executor(DrawInterface::default()).map(drop).expect_err("a refusal").to_string();
+        assert!(none.contains("parameters come in the uniform block `params`"), "{none}");
+        let mut far = pushing();
+        far.push_constants.push(PushConstants::new(1 << 20, 4));
+        let said = executor(far).map(drop).expect_err("a refusal").to_string();
+        assert!(said.contains("1048580 bytes of push constants") && said.contains("maxPushConstantsSize"), "{said}");
     });
 }

@@ -1,6 +1,6 @@
 //! What the draw source brings along for one kind of draw, and what of it no device could bind.
 
-use super::{Attribute, BINDINGS, Binding, BindingKind, PASS_SET, VertexBuffer, binding_name};
+use super::{Attribute, BINDINGS, Binding, BindingKind, PASS_SET, PushConstants, VertexBuffer, binding_name};
 use crate::vulkan::{Component, Dimension, ImageShape, PrimitiveTopology};
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -19,6 +19,8 @@ pub struct DrawInterface {
     pub topology: Option<PrimitiveTopology>,
     /// Whether an index of all ones ends a strip or a fan, and begins another.
     pub primitive_restart: bool,
+    /// Push constants that are set for each draw.
+    pub push_constants: Vec<PushConstants>,
     /// Resources that are bound.
     pub supplied: Vec<SuppliedResource>,
 }
@@ -69,6 +71,8 @@ pub enum DrawPart {
     Attribute(usize),
     /// That strips begin anew.
     Restart,
+    /// A range of push constants, by its number in the list.
+    PushConstants(usize),
     /// A resource, by its number in the list.
     Supplied(usize),
 }
@@ -141,7 +145,7 @@ impl DrawInterface {
     /// All that is wrong with it: what not every device can bind, and what shaders couldn't tell apart.
     #[must_use]
     pub fn faults(&self) -> Vec<DrawFault> {
-        let mut faults: Vec<DrawFault> = self.buffer_faults().collect();
+        let mut faults: Vec<DrawFault> = self.buffer_faults().chain(self.push_faults()).collect();
         if self.primitive_restart && !self.topology.is_some_and(PrimitiveTopology::is_joined) {
             let message = "strips that an index begins anew take a `topology` of strips or fans".to_owned();
             faults.push(DrawFault { at: DrawPart::Restart, message, first: None });

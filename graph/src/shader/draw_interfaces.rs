@@ -103,6 +103,12 @@ impl DrawInterfaces {
         kinds.chain(custom)
     }
 
+    /// Whether any of its draws brings push constants.
+    #[must_use]
+    pub fn push_constants(&self) -> bool {
+        self.all_of_file().any(|(_, interface)| !interface.push_constants.is_empty())
+    }
+
     /// The sets that the program makes and binds itself, in the order of their numbers.
     #[must_use]
     pub fn sets(&self) -> &[ProgramSet] {

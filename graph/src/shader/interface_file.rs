@@ -1,7 +1,7 @@
 //! The file of a draw source's interfaces.
 
 use super::interface_vertices::{self, VertexFields, VertexPlaces};
-use super::{DrawInterface, DrawInterfaces, DrawKind, DrawPart, InterfaceOf, SuppliedKind, SuppliedResource, interface_sets};
+use super::{DrawInterface, DrawInterfaces, DrawKind, DrawPart, InterfaceOf, PushConstants, SuppliedKind, SuppliedResource, interface_sets};
 use crate::base::{Code, Diagnostic, Sources, Span};
 use crate::fields;
 use crate::frame::DrawList;
@@ -36,7 +36,16 @@ fields! {
         attributes: Option<Leaf<'t>>,
         topology: Option<Leaf<'t>>,
         primitive_restart: Option<Leaf<'t>>,
+        push_constants: Option<Leaf<'t>>,
         supplied: Option<Leaf<'t>>,
+    }
+}
+
+fields! {
+    struct PushFields<'t> {
+        stages: Option<Leaf<'t>>,
+        offset: Option<Leaf<'t>>,
+        bytes: Leaf<'t>,
     }
 }
 
@@ -76,6 +85,7 @@ pub(super) fn write(interfaces: &DrawInterfaces) -> String {
         // Writing to a text can't fail.
         let _ = writeln!(text, "        (\n            of: [{kinds}],");
         interface_vertices::write(interface, &mut text);
+        write_pushed(interface, &mut text);
         text += "            supplied: [\n";
         for SuppliedResource { set, binding, name, kind, count } in &interface.supplied {
             let count = if *count == 1 { String::new() } else { format!(", count: {count}") };
@@ -90,6 +100,18 @@ pub(super) fn write(interfaces: &DrawInterfaces) -> String {
         let _ = writeln!(text, "    custom: {custom:?},");
     }
     text + ")\n"
+}
+
+fn write_pushed(interface: &DrawInterface, text: &mut String) {
+    if interface.push_constants.is_empty() {
+        return;
+    }
+    *text += "            push_constants: [\n";
+    for PushConstants { stages, offset, bytes } in &interface.push_constants {
+        let stages = interface_sets::stage_words(*stages, PushConstants::new(0, 0).stages);
+        let _ = writeln!(text, "                (offset: {offset}, bytes: {bytes}{stages}),");
+    }
+    *text += "            ],\n";
 }
 
 /// Reads the file.
@@ -232,7 +254,11 @@ fn interface(reader: &mut Reader, fields: DrawFields<'_>) -> DrawInterface {
     let before = reader.errors.len();
     let mut interface = DrawInterface::default();
     let vertices = interface_vertices::read(reader, fields.vertices(), &mut interface);
-    let mut places = Places { vertices, supplied: Vec::new() };
+    let mut places = Places { vertices, pushed: Vec::new(), supplied: Vec::new() };
+    for leaf in list(reader, fields.push_constants, "push constants") {
+        interface.push_constants.extend(pushed(reader, leaf));
+        places.pushed.push(leaf);
+    }
     for leaf in list(reader, fields.supplied, "resources") {
         interface.supplied.extend(supplied(reader, leaf));
         places.supplied.push(leaf);
@@ -255,6 +281,7 @@ fn interface(reader: &mut Reader, fields: DrawFields<'_>) -> DrawInterface {
 /// Where the parts of an interface stand.
 struct Places<'t> {
     vertices: VertexPlaces<'t>,
+    pushed: Vec<Leaf<'t>>,
     supplied: Vec<Leaf<'t>>,
 }
 
@@ -262,6 +289,7 @@ impl<'t> Places<'t> {
     fn of(&self, part: DrawPart) -> Option<Leaf<'t>> {
         match part {
             DrawPart::VertexBuffer(_) | DrawPart::Attribute(_) | DrawPart::Restart => self.vertices.of(part),
+            DrawPart::PushConstants(number) => self.pushed.get(number).copied(),
             DrawPart::Supplied(number) => self.supplied.get(number).copied(),
         }
     }
@@ -269,6 +297,17 @@ impl<'t> Places<'t> {
 
 pub(super) fn list<'t>(reader: &mut Reader, leaf: Option<Leaf<'t>>, what: &str) -> Vec<Leaf<'t>> {
     leaf.and_then(|leaf| reader.list(leaf, what)).unwrap_or_default()
+}
+
+fn pushed(reader: &mut Reader, leaf: Leaf<'_>) -> Option<PushConstants> {
+    let fields: PushFields<'_> = reader.read(leaf, "push constants")?;
+    let stages = match fields.stages {
+        None => Some(PushConstants::new(0, 0).stages),
+        Some(leaf) => interface_sets::stages(reader, leaf),
+    };
+    let offset = fields.offset.map_or(Some(0), |leaf| number(reader, leaf, "the offset"));
+    let bytes = number(reader, fields.bytes, "the number of bytes");
+    Some(PushConstants { stages: stages?, offset: offset?, bytes: bytes? })
 }
 
 fn supplied(reader: &mut Reader, leaf: Leaf<'_>) -> Option<SuppliedResource> {

@@ -64,7 +64,7 @@ impl<'t> VertexPlaces<'t> {
             DrawPart::VertexBuffer(number) => self.buffers.get(number).copied(),
             DrawPart::Attribute(number) => self.attributes.get(number).copied(),
             DrawPart::Restart => self.restart,
-            DrawPart::Supplied(_) => None,
+            DrawPart::PushConstants(_) | DrawPart::Supplied(_) => None,
         }
     }
 }

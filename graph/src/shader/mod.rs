@@ -15,6 +15,7 @@ mod param_type;
 mod place_names;
 mod problem;
 mod program_set;
+mod push_constants;
 mod set_faults;
 mod shader_name;
 mod vertex_layout;
@@ -45,6 +46,7 @@ pub use place_names::{
 pub use program_set::{
     BindingFlags, DescriptorType, ProgramBinding, ProgramResource, ProgramSet, bindings_of_read_sets, set_needs,
 };
+pub use push_constants::{PushConstants, PushedBlock, push_needs};
 pub use set_faults::SetFault;
 pub use shader_name::{FileLanguage, LanguageFacts, ShaderName, StageName};
 pub use vertex_layout::{LayoutFault, LocationLayout, VertexInput, VertexLayout};
@@ -56,6 +58,8 @@ pub struct ShaderInterface {
     pub bindings: Vec<Binding>,
     /// What it reads of the program's own sets.
     pub program: Vec<ProgramResource>,
+    /// The blocks of push constants that its stages read, without those of the library's own.
+    pub pushed: Vec<PushedBlock>,
     /// Vertex attributes that the vertex stage declares.
     pub vertex_inputs: Vec<VertexInput>,
     /// Colour outputs of the fragment stage.

@@ -4,10 +4,10 @@ use framewright_graph::base::{self, Sources};
 use framewright_graph::device::{Abilities, Limits};
 use framewright_graph::frame::Draw;
 use framewright_graph::shader::{
-    Attribute, BroughtLocation, DrawInterface, DrawInterfaces, DrawKind, VertexBuffer, VertexInput, VertexRate,
-    vertex_needs,
+    Attribute, BroughtLocation, DrawInterface, DrawInterfaces, DrawKind, PushConstants, PushedBlock, VertexBuffer,
+    VertexInput, VertexRate, push_needs, vertex_needs,
 };
-use framewright_graph::vulkan::{PrimitiveTopology, VertexFormat};
+use framewright_graph::vulkan::{PrimitiveTopology, Stages, VertexFormat};
 
 fn read(text: &str) -> Result<DrawInterfaces, String> {
     let mut sources = Sources::default();
@@ -34,6 +34,10 @@ const GRASS: &str = r#"Interface(
             ],
             topology: TriangleStrip,
             primitive_restart: true,
+            push_constants: [
+                (offset: 0, bytes: 64, stages: [Vertex]),
+                (offset: 64, bytes: 16),
+            ],
             supplied: [
             ],
         ),
@@ -58,6 +62,10 @@ fn grass() -> DrawInterface {
         ],
         topology: Some(PrimitiveTopology::TriangleStrip),
         primitive_restart: true,
+        push_constants: vec![
+            PushConstants::new(0, 64).for_stages(Stages::VERTEX_SHADER),
+            PushConstants::new(64, 16),
+        ],
         supplied: Vec::new(),
     }
 }
@@ -107,6 +115,12 @@ fn each_mistake_in_vertices_is_told_at_its_place() {
     wrong("TriangleStrip", "Triangles", "18:23", &["`Triangles` is not a topology"]);
     wrong("primitive_restart: true", "primitive_restart: 1", "19:32", &["`true` or `false`"]);
     wrong("vertex_buffers: [", "vertex_stride: 8, vertex_buffers: [", "6:28", &["short for one vertex buffer"]);
+    wrong("bytes: 64", "bytes: 62", "21:17", &["62 bytes of push constants from byte 0 on: both are multiples of 4"]);
+    wrong("bytes: 64", "bytes: 0", "21:17", &["0 bytes of push constants"]);
+    wrong("[Vertex]", "[Compute]", "21:17", &["push constants are for the stages `Vertex` and `Fragment`"]);
+    wrong("[Vertex]", "[]", "21:17", &["push constants are for the stages"]);
+    wrong("[Vertex]", "[Pixel]", "21:53", &["`Pixel` is not a stage"]);
+    wrong("offset: 64, bytes", "offset: -4, bytes", "22:26", &["the offset can't be -4"]);
     wrong("Custom(\"grass\")", "Custom()", "5:24", &["Custom"]);
     wrong("[Sky, ", "[Custom(\"grass\"), ", "5:35", &["stands here twice"]);
     wrong("custom: [\"grass\"]", "custom: [\"hair\"]", "5:24", &["no custom pass is called `grass`"]);
@@ -172,4 +186,22 @@ fn devices_bound_the_vertices_that_a_shader_reads_and_no_others() {
             "the bytes from vertex to vertex are 4000; this device allows 2048 (maxVertexInputBindingStride)",
         ]
     );
+}
+
+#[test]
+fn blocks_of_push_constants_lie_within_what_their_stage_is_brought() {
+    let block = |stages, offset, end| PushedBlock { name: "block".to_owned(), stages, offset, end };
+    let misfit = |stages, offset, end| grass().pushed_misfit(&block(stages, offset, end));
+    let (vertex, fragment) = (Stages::VERTEX_SHADER, Stages::FRAGMENT_SHADER);
+    assert_eq!(misfit(vertex, 0, 64), None);
+    assert_eq!(misfit(vertex, 64, 80), None);
+    assert_eq!(misfit(fragment, 68, 72), None);
+    let said = misfit(fragment, 0, 64).expect("a misfit");
+    assert_eq!(said, "push constants `block`, bytes 0 to 63, and the stage is brought bytes 64 to 79");
+    assert!(misfit(vertex, 60, 68).expect("a misfit").ends_with("is brought bytes 0 to 63 and 64 to 79"));
+    let none = DrawInterface::default().pushed_misfit(&block(vertex, 0, 4)).expect("a misfit");
+    assert!(none.ends_with("is brought none"), "{none}");
+    assert_eq!(push_needs(&grass()), None, "every device has 128");
+    let far = DrawInterface { push_constants: vec![PushConstants::new(128, 4)], ..DrawInterface::default() };
+    assert!(push_needs(&far).is_some());
 }

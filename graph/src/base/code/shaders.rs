@@ -174,4 +174,11 @@ room! {
     /// A border goes with `address: Border`, and is one of integers where the image holds integers. Anisotropy goes with
     /// `filter: Linear`, and the least mip level lies below the greatest. What is compared has no reduction.
     SAMPLER_UNFIT = 831,
+
+    /// A shader reads push constants that aren't set for it.
+    ///
+    /// What a pass gives its shader comes in the uniform block `params`. Push constants are those of a program's draws, which tells their
+    /// bytes: `DrawInterface::push_constants`, or `push_constants` in an interface file (`--interface`). A shader that reads any asks for no
+    /// part of an image.
+    PUSH_CONSTANTS = 832,
 }

@@ -9,7 +9,7 @@ use crate::language;
 use crate::ron::Name;
 use crate::shader::{
     AttributeMisfit, Binding, DrawInterface, LayoutFault, PASS_SET, ProgramResource, ProgramSet, ShaderInterface, SuppliedResource,
-    UnbindableResource, VertexLayout, bindings_of_read_sets, resource_needs, set_needs, vertex_needs,
+    UnbindableResource, VertexLayout, bindings_of_read_sets, push_needs, resource_needs, set_needs, vertex_needs,
 };
 use std::sync::Arc;
 
@@ -30,6 +30,7 @@ pub(in crate::expand) fn check(
     if !own {
         attributes(shader, interface, &brought, errors);
     }
+    pushed(shader, interface, &brought, errors);
     for binding in interface.bindings.iter().filter(|binding| binding.set != PASS_SET) {
         resource(shader, binding, &brought.supplied, errors);
     }
@@ -52,6 +53,7 @@ pub(in crate::expand) fn needs(
     let mut needs = interface.needs.clone();
     if let Some(brought) = &brought {
         needs.append(&mut vertex_needs(&interface.vertex_inputs, brought));
+        needs.extend(push_needs(brought).filter(|_| !interface.pushed.is_empty()));
     }
     let sets = shaders.program_sets();
     let program = bindings_of_read_sets(&interface.program, sets);
@@ -133,6 +135,19 @@ fn attributes(shader: &Name, interface: &ShaderInterface, brought: &DrawInterfac
         };
         let wrong = Diagnostic::new(Code::VERTEX_ATTRIBUTES, *span, message).choice(OutsideChoice::DrawInterfaces);
         errors.push(Diagnostic { help, ..wrong });
+    }
+}
+
+/// Reports push constants that the draw source doesn't set, or not beside parts of images.
+fn pushed(shader: &Name, interface: &ShaderInterface, brought: &DrawInterface, errors: &mut Vec<Diagnostic>) {
+    for block in &interface.pushed {
+        let what = match (brought.pushed_misfit(block), interface.asks_part.first()) {
+            (Some(misfit), _) => misfit,
+            (None, Some(part)) => format!("push constants `{}` beside the part of `{part}`, which is one too", block.name),
+            (None, None) => continue,
+        };
+        let message = format!("shader `{}` reads {what}", shader.text);
+        errors.push(Diagnostic::new(Code::PUSH_CONSTANTS, shader.span, message).choice(OutsideChoice::DrawInterfaces));
     }
 }
 
