@@ -9,9 +9,7 @@ use super::output_readback::OutputReadback;
 use super::submission::{SemaphorePoint, Submission};
 use crate::base::Error;
 use crate::gpu::{Device, Gpu, PipelineHold, ScopeFormats};
-use crate::prepare::{
-    Frame, PreparedPlan, Refusals, ResourceUses, StagedTexture, check, stage_textures,
-};
+use crate::prepare::{Frame, PreparedPlan, Refusals, ResourceUses, StagedTexture, check, stage_textures};
 use crate::record::{DrawSource, FrameReport, GuardedSource};
 use crate::resources::{ProgramSets, RawSet};
 use crate::shaders::ShaderLibrary;

@@ -120,7 +120,8 @@ impl Features {
         let mut local = vk::PhysicalDeviceDynamicRenderingLocalReadFeaturesKHR::default();
         let mut barycentric = vk::PhysicalDeviceFragmentShaderBarycentricFeaturesKHR::default();
         let mut divisor = vk::PhysicalDeviceVertexAttributeDivisorFeaturesKHR::default();
-        let [has_local_read, has_barycentric, has_divisor] = has_extensions(instance, physical, OF_EXTENSIONS.map(|(name, _)| name));
+        let [has_local_read, has_barycentric, has_divisor] =
+            has_extensions(instance, physical, OF_EXTENSIONS.map(|(name, _)| name));
         let mut all = vk::PhysicalDeviceFeatures2::default();
         all = all.push_next(&mut v1_1).push_next(&mut v1_2).push_next(&mut v1_3);
         if has_local_read {

@@ -34,7 +34,8 @@ pub use surface::rotation_of_surface;
 pub use validation::{Message, MessageKind, Messages, Severity};
 
 pub(crate) use cached_objects::{
-    GraphicsDescriptor, LayoutBinding, PipelineDescriptor, PipelineHold, RotationConstants, VertexAttribute, VertexBinding,
+    GraphicsDescriptor, LayoutBinding, PipelineDescriptor, PipelineHold, RotationConstants, VertexAttribute,
+    VertexBinding,
 };
 pub(crate) use device::TestedDevice;
 pub(crate) use handle::{Gpu, PendingWork};

@@ -6,7 +6,8 @@ use framewright_graph::device::Abilities;
 use framewright_graph::plan::{self, Plan};
 use framewright_graph::shader::{
     DrawInterface, DrawInterfaces, LocationLayout, PASS_SET, ProgramResource, ProgramSet, ShaderInterface,
-    SuppliedResource, VertexLayout, VertexRate, bindings_of_read_sets, push_needs, resource_needs, set_needs, vertex_needs,
+    SuppliedResource, VertexLayout, VertexRate, bindings_of_read_sets, push_needs, resource_needs, set_needs,
+    vertex_needs,
 };
 use framewright_graph::vulkan::Component;
 
@@ -28,9 +29,16 @@ pub(crate) fn check_needs<'s>(
     };
     let mut of_vertices = vertex_needs(&shader.vertex_inputs, brought);
     of_vertices.extend(push_needs(brought).filter(|_| !shader.pushed.is_empty()));
-    let of_resources = resource_needs(shader, brought.supplied.iter(), bindings_of_read_sets(&shader.program, sets), targets);
+    let of_resources =
+        resource_needs(shader, brought.supplied.iter(), bindings_of_read_sets(&shader.program, sets), targets);
     let of_sets = set_needs(&shader.program, sets);
-    let unmet = shader.needs.iter().chain(&of_resources).chain(&of_sets).chain(&of_vertices).find_map(|need| need.unmet(&abilities));
+    let unmet = shader
+        .needs
+        .iter()
+        .chain(&of_resources)
+        .chain(&of_sets)
+        .chain(&of_vertices)
+        .find_map(|need| need.unmet(&abilities));
     unmet.map_or(Ok(()), Err)
 }
 
@@ -55,7 +63,8 @@ pub(crate) fn check_supplied(shader: &ShaderInterface, brought: &DrawInterface) 
 pub(crate) fn check_pushed(shader: &ShaderInterface, brought: &DrawInterface, parts: bool) -> Result<(), String> {
     let misfit = shader.pushed.iter().find_map(|block| brought.pushed_misfit(block));
     let beside = || shader.pushed.first().filter(|_| parts);
-    let beside = || beside().map(|it| format!("push constants `{}` beside parts of images, which are some too", it.name));
+    let beside =
+        || beside().map(|it| format!("push constants `{}` beside parts of images, which are some too", it.name));
     misfit.or_else(beside).map_or(Ok(()), |misfit| Err(format!("the shader reads {misfit}")))
 }
 

@@ -8,7 +8,9 @@ use super::pass_set::PassSets;
 use super::supplied_sets::SuppliedSets;
 use super::variant::{scope_formats, variant};
 use crate::base::{Error, by};
-use crate::gpu::{Gpu, GraphicsDescriptor, LocalReads, PipelineDescriptor, RotationConstants, ScopeFormats, VertexBinding};
+use crate::gpu::{
+    Gpu, GraphicsDescriptor, LocalReads, PipelineDescriptor, RotationConstants, ScopeFormats, VertexBinding,
+};
 use crate::pipeline::{
     brought_attributes, check_brought, check_needs, check_outputs, check_program, check_pushed, check_supplied,
     own_attributes,
@@ -17,7 +19,9 @@ use crate::shaders::{CompiledShader, ShaderLibrary};
 use ash::vk;
 use framewright_graph::frame::{BufferRole, Draw, EyeForm, Groups, Stereo};
 use framewright_graph::plan::{self, BufferId, Plan, RenderScope};
-use framewright_graph::shader::{DrawInterface, PASS_SET, PushedBlock, ShaderInterface, ShaderInterfaces, ShaderProblem};
+use framewright_graph::shader::{
+    DrawInterface, PASS_SET, PushedBlock, ShaderInterface, ShaderInterfaces, ShaderProblem,
+};
 use framewright_graph::vulkan::{Accesses, PrimitiveTopology};
 use std::sync::Arc;
 

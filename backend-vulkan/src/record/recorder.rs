@@ -187,7 +187,9 @@ impl<'f> Recorder<'f> {
         }
         let Some(bytes) = buffer.bytes().checked_sub(offset).filter(|_| offset.is_multiple_of(4)) else {
             let held = buffer.bytes();
-            return self.misused(|| format!("vertices from byte {offset} of a buffer on, which holds {held}; offsets are multiples of 4"));
+            return self.misused(|| {
+                format!("vertices from byte {offset} of a buffer on, which holds {held}; offsets are multiples of 4")
+            });
         };
         if number >= self.pass.brought_buffers.max(1) {
             return self.misused(|| format!("the draw interface has no vertex buffer {number}"));
@@ -197,7 +199,9 @@ impl<'f> Recorder<'f> {
         bound.push((number, bytes));
         // SAFETY: the command buffer is being recorded, the buffer was made for vertices, and the device has such a binding: what the draw
         // interface has was checked, and each device has the first.
-        unsafe { self.canvas.gpu.raw.cmd_bind_vertex_buffers(self.canvas.commands, number, &[buffer.0.raw], &[offset]) };
+        unsafe {
+            self.canvas.gpu.raw.cmd_bind_vertex_buffers(self.canvas.commands, number, &[buffer.0.raw], &[offset])
+        };
     }
 
     /// Binds the indices.
@@ -225,7 +229,9 @@ impl<'f> Recorder<'f> {
         }
         if !whole || end > u64::from(most) {
             let length = bytes.len();
-            return self.misused(|| format!("{length} bytes of push constants from byte {offset} on: there are {most}, set by four"));
+            return self.misused(|| {
+                format!("{length} bytes of push constants from byte {offset} on: there are {most}, set by four")
+            });
         }
         let words = (offset / 4) as usize..(offset / 4) as usize + bytes.len() / 4;
         let pushed = &mut self.sets.held.pushed;
@@ -330,7 +336,9 @@ impl<'f> Recorder<'f> {
             self.look_for_missing();
             self.ready = self.misuse.is_none();
         }
-        if self.ready && let Some(misuse) = self.beyond(vertices, instances) {
+        if self.ready
+            && let Some(misuse) = self.beyond(vertices, instances)
+        {
             self.misused(|| misuse);
         }
         self.ready
@@ -355,7 +363,8 @@ impl<'f> Recorder<'f> {
             };
             let reach = u64::from(elements) * u64::from(*stride);
             let held = self.bound_bytes(*binding)?;
-            let buffer = if *binding == 0 { "the vertex buffer".to_owned() } else { format!("vertex buffer {binding}") };
+            let buffer =
+                if *binding == 0 { "the vertex buffer".to_owned() } else { format!("vertex buffer {binding}") };
             (!range.is_empty() && held < reach).then(|| format!("{what} {} lie beyond {buffer}", numbers(range)))
         })
     }

@@ -46,7 +46,9 @@ impl ProgramSets {
     pub(crate) fn check(&self, number: u32) -> Result<(), String> {
         match self.told.contains(&number) {
             true => Ok(()),
-            false => Err(format!("set {number} is bound, and the program has told of none of that number (`DrawInterfaces::with_set`)")),
+            false => Err(format!(
+                "set {number} is bound, and the program has told of none of that number (`DrawInterfaces::with_set`)"
+            )),
         }
     }
 

@@ -1,12 +1,14 @@
 //! The resources that a shader stage uses, read off its SPIR-V.
 
 use super::module::{IndexedModule, id, number, storage_class};
-use super::sampler_pairs::SamplerPairs;
 use super::program_supply::ProgramSupply;
+use super::sampler_pairs::SamplerPairs;
 use super::text::RefusedStage;
 use crate::base::ShaderStage;
 use crate::base::named;
-use framewright_graph::shader::{BINDINGS, Binding, BindingKind, Block, Member, PASS_SET, PushedBlock, UnbindableResource};
+use framewright_graph::shader::{
+    BINDINGS, Binding, BindingKind, Block, Member, PASS_SET, PushedBlock, UnbindableResource,
+};
 use framewright_graph::vulkan::{Component, Dimension, Format, ImageShape};
 use rspirv::dr::{Instruction, Operand};
 use rspirv::spirv::{Decoration, Dim, ImageFormat, Op, StorageClass};

@@ -27,8 +27,8 @@ use framewright_graph::base::{FilePath, Root};
 use framewright_graph::device::{Need, NeedKind};
 use framewright_graph::frame::{Draw, EyeForm};
 use framewright_graph::shader::{
-    Binding, ConstantValue, DrawInterface, DrawInterfaces, PASS_SET, ProgramSet, ShaderInterface,
-    ShaderInterfaces, ShaderName, ShaderProblem, StageName, UnbindableResource, Variant,
+    Binding, ConstantValue, DrawInterface, DrawInterfaces, PASS_SET, ProgramSet, ShaderInterface, ShaderInterfaces,
+    ShaderName, ShaderProblem, StageName, UnbindableResource, Variant,
 };
 use std::collections::HashMap;
 use std::sync::Arc;

@@ -1,7 +1,6 @@
 //! Reflection of one shader stage: the interface that its SPIR-V tells.
 
 use super::bindings::{bindings, component_of, pushed};
-use super::program_supply::ProgramSupply;
 use super::capabilities::check_capabilities;
 use super::constants;
 use super::extensions::check_extensions;
@@ -9,6 +8,7 @@ use super::eyes::{HANDED_ON, LOCATION};
 use super::module::{IndexedModule, id, number, storage_class};
 use super::needs::{Needed, needs};
 use super::program_resources::program_resources;
+use super::program_supply::ProgramSupply;
 use super::rotation;
 use super::text::RefusedStage;
 use super::varyings::{Varying, varyings, vertex_inputs, writes_point_size};

@@ -5,7 +5,9 @@ use crate::frames::{Small, Uses, draw, on_each_driver, planned, texels, to_bytes
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{Draw, DrawList, Pass, RasterState};
 use framewright_graph::plan::Plan;
-use framewright_graph::shader::{Attribute, DrawInterface, DrawInterfaces, DrawKind, PushConstants, VertexBuffer, VertexRate};
+use framewright_graph::shader::{
+    Attribute, DrawInterface, DrawInterfaces, DrawKind, PushConstants, VertexBuffer, VertexRate,
+};
 use framewright_graph::vulkan::{Format, PrimitiveTopology, Stages, Subresources, VertexFormat};
 use framewright_vulkan::{
     Buffer, BufferUsage, Device, DrawSource, Error, Executor, ExecutorOptions, IndexType, Recorder, ShaderLibrary,
@@ -255,7 +257,8 @@ fn an_element_serves_as_many_instances_as_the_interface_says() {
 #[test]
 fn what_a_draw_reads_of_vertex_buffers_must_be_bound_and_long_enough() {
     on_each_driver(|device| {
-        let refused = |way, draws| drawn(device, "many", draws, &mut Many::new(device, way)).expect_err("a refusal").to_string();
+        let refused =
+            |way, draws| drawn(device, "many", draws, &mut Many::new(device, way)).expect_err("a refusal").to_string();
         let without = |number| refused(Way { without: Some(number), ..Way::default() }, many(1));
         let said = |what: &str| format!("pass `many`, while recording: {what}");
         assert_eq!(without(0), said("a draw without vertex buffer"));
@@ -303,7 +306,10 @@ fn a_shader_reads_what_is_brought_along_as_what_it_is() {
             let said = drawn(device, "many", draws, &mut Many::new(device, Way::default()));
             if format.component() == framewright_graph::vulkan::Component::Float {
                 let said = said.expect_err("a refusal").to_string();
-                assert!(said.contains(&format!("has the format {format}, of which this device reads no vertices")), "{said}");
+                assert!(
+                    said.contains(&format!("has the format {format}, of which this device reads no vertices")),
+                    "{said}"
+                );
             }
         }
     });

@@ -181,7 +181,10 @@ impl DrawInterface {
     ///
     /// # Errors
     /// [`AttributeMisfit`], if what is brought along isn't what the shader declares.
-    pub fn locations(&self, input: &VertexInput) -> Result<impl Iterator<Item = BroughtLocation> + use<>, AttributeMisfit> {
+    pub fn locations(
+        &self,
+        input: &VertexInput,
+    ) -> Result<impl Iterator<Item = BroughtLocation> + use<>, AttributeMisfit> {
         let there = self.attribute(input).ok_or(AttributeMisfit::Unknown)?;
         let (count, component) = input.read_as().ok_or(AttributeMisfit::Format(there.format))?;
         let misfit = match () {
@@ -244,9 +247,16 @@ pub fn vertex_needs(inputs: &[VertexInput], brought: &DrawInterface) -> Vec<Need
             if !format.is_on_every_device() {
                 need(NeedKind::VertexFormat { format, name: input.name.as_str().into() });
             }
-            let Some(VertexBuffer { stride, rate }) = brought.vertex_buffers.get(buffer as usize).copied() else { continue };
+            let Some(VertexBuffer { stride, rate }) = brought.vertex_buffers.get(buffer as usize).copied() else {
+                continue;
+            };
             let limits = [
-                (Limit::VertexAttributes, u64::from(location) + 1, "the locations of its vertex attributes go up to", location),
+                (
+                    Limit::VertexAttributes,
+                    u64::from(location) + 1,
+                    "the locations of its vertex attributes go up to",
+                    location,
+                ),
                 (Limit::VertexBuffers, u64::from(buffer) + 1, "its vertex buffers go up to", buffer),
                 (Limit::VertexOffset, u64::from(offset), "the offset of a vertex attribute is", offset),
                 (Limit::VertexStride, u64::from(stride), "the bytes from vertex to vertex are", stride),
@@ -270,7 +280,9 @@ impl AttributeMisfit {
     pub fn help(self, input: &VertexInput) -> Option<String> {
         Some(match self {
             AttributeMisfit::Unknown => return None,
-            AttributeMisfit::Component => "attributes of a draw source begin a location: leave `component` out".to_owned(),
+            AttributeMisfit::Component => {
+                "attributes of a draw source begin a location: leave `component` out".to_owned()
+            }
             AttributeMisfit::Format(format) => {
                 let types = match format.component() {
                     Component::Float => "`float`, `vec2`, `vec3` or `vec4`",

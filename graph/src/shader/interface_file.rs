@@ -1,7 +1,10 @@
 //! The file of a draw source's interfaces.
 
 use super::interface_vertices::{self, VertexFields, VertexPlaces};
-use super::{DrawInterface, DrawInterfaces, DrawKind, DrawPart, InterfaceOf, PushConstants, SuppliedKind, SuppliedResource, interface_sets};
+use super::{
+    DrawInterface, DrawInterfaces, DrawKind, DrawPart, InterfaceOf, PushConstants, SuppliedKind, SuppliedResource,
+    interface_sets,
+};
 use crate::base::{Code, Diagnostic, Sources, Span};
 use crate::fields;
 use crate::frame::DrawList;
@@ -164,7 +167,8 @@ fn whole(reader: &mut Reader, all: Leaf<'_>) -> Option<DrawInterfaces> {
         let kinds = kinds(reader, fields.of, &mut seen);
         let vertices = fields.vertices();
         let interface = interface(reader, fields);
-        if let Some(leaf) = vertices.told(&interface).filter(|_| kinds.contains(&InterfaceOf::Kind(DrawKind::Compute))) {
+        if let Some(leaf) = vertices.told(&interface).filter(|_| kinds.contains(&InterfaceOf::Kind(DrawKind::Compute)))
+        {
             reader.wrong(
                 Code::INTERFACE_FILE,
                 leaf,

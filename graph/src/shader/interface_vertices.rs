@@ -142,8 +142,7 @@ pub(super) fn read<'t>(
         interface.attributes.extend(attribute(reader, leaf));
         places.attributes.push(leaf);
     }
-    interface.topology =
-        fields.topology.and_then(|leaf| reader.choice(leaf, "a topology", PrimitiveTopology::NAMED));
+    interface.topology = fields.topology.and_then(|leaf| reader.choice(leaf, "a topology", PrimitiveTopology::NAMED));
     places.restart = fields.restart;
     interface.primitive_restart = fields.restart.and_then(|leaf| reader.truth(leaf)).unwrap_or(false);
     places
@@ -216,7 +215,12 @@ fn format(reader: &mut Reader, leaf: Leaf<'_>, fields: &AttributeFields<'_>) -> 
         }
         (None, None) => {
             let message = "an attribute lacks its format";
-            reader.wrong(Code::INTERFACE_FILE, leaf, message, "add `format: R8G8B8A8_UNORM`, or `components: 3` for 32-bit floats");
+            reader.wrong(
+                Code::INTERFACE_FILE,
+                leaf,
+                message,
+                "add `format: R8G8B8A8_UNORM`, or `components: 3` for 32-bit floats",
+            );
             None
         }
     }

@@ -28,9 +28,7 @@ use std::collections::HashSet;
 use std::fmt;
 use std::sync::Arc;
 
-pub use brought_vertices::{
-    Attribute, AttributeMisfit, BroughtLocation, VertexBuffer, VertexRate, vertex_needs,
-};
+pub use brought_vertices::{Attribute, AttributeMisfit, BroughtLocation, VertexBuffer, VertexRate, vertex_needs};
 pub use constant::{ConstantValue, ShaderConstant};
 pub use draw_interface::{DrawFault, DrawInterface, DrawPart, SuppliedKind, SuppliedResource};
 pub use draw_interfaces::DrawInterfaces;

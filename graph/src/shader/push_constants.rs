@@ -49,8 +49,11 @@ impl PushConstants {
             return Some("push constants are for the stages `Vertex` and `Fragment`, or one of them".to_owned());
         }
         let whole = offset.is_multiple_of(4) && bytes.is_multiple_of(4) && *bytes > 0;
-        (!whole || offset.checked_add(*bytes).is_none())
-            .then(|| format!("{bytes} bytes of push constants from byte {offset} on: both are multiples of 4, and 4 bytes the least"))
+        (!whole || offset.checked_add(*bytes).is_none()).then(|| {
+            format!(
+                "{bytes} bytes of push constants from byte {offset} on: both are multiples of 4, and 4 bytes the least"
+            )
+        })
     }
 }
 

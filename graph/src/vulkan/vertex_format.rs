@@ -207,7 +207,8 @@ mod tests {
     fn a_format_is_as_long_as_its_name_says() {
         for (name, format) in VertexFormat::NAMED {
             let channels = name.split('_').next().unwrap_or_default();
-            let numbers = channels.split(|letter: char| letter.is_ascii_alphabetic()).filter_map(|it| it.parse::<u32>().ok());
+            let numbers =
+                channels.split(|letter: char| letter.is_ascii_alphabetic()).filter_map(|it| it.parse::<u32>().ok());
             assert_eq!(numbers.clone().sum::<u32>(), 8 * format.bytes(), "{name}");
             assert_eq!(numbers.count(), format.components() as usize, "{name}");
         }

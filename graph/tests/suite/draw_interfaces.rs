@@ -193,10 +193,7 @@ fn interface() -> impl Strategy<Value = DrawInterface> {
     let format = prop::sample::select(VertexFormat::NAMED.iter().map(|(_, format)| *format).collect::<Vec<_>>());
     let attribute = (format, 1_u32..5, 0_u32..3, prop::option::of(0_u32..16));
     let attributes = prop::collection::btree_map("[A-Za-z_][A-Za-z0-9_]{0,9}", attribute, 0..6);
-    let rate = prop_oneof![
-        Just(VertexRate::Vertex),
-        (1_u32..5).prop_map(|divisor| VertexRate::Instance { divisor }),
-    ];
+    let rate = prop_oneof![Just(VertexRate::Vertex), (1_u32..5).prop_map(|divisor| VertexRate::Instance { divisor }),];
     let buffers = prop::collection::vec((rate, 1_u32..9), 0..4);
     (supplied, attributes, buffers, prop::bool::ANY).prop_map(|(supplied, named, buffers, strips)| {
         let mut interface = DrawInterface::default();

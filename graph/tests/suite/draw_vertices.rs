@@ -62,10 +62,7 @@ fn grass() -> DrawInterface {
         ],
         topology: Some(PrimitiveTopology::TriangleStrip),
         primitive_restart: true,
-        push_constants: vec![
-            PushConstants::new(0, 64).for_stages(Stages::VERTEX_SHADER),
-            PushConstants::new(64, 16),
-        ],
+        push_constants: vec![PushConstants::new(0, 64).for_stages(Stages::VERTEX_SHADER), PushConstants::new(64, 16)],
         supplied: Vec::new(),
     }
 }

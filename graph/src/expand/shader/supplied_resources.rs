@@ -8,8 +8,9 @@ use crate::frame::Draw;
 use crate::language;
 use crate::ron::Name;
 use crate::shader::{
-    AttributeMisfit, Binding, DrawInterface, LayoutFault, PASS_SET, ProgramResource, ProgramSet, ShaderInterface, SuppliedResource,
-    UnbindableResource, VertexLayout, bindings_of_read_sets, push_needs, resource_needs, set_needs, vertex_needs,
+    AttributeMisfit, Binding, DrawInterface, LayoutFault, PASS_SET, ProgramResource, ProgramSet, ShaderInterface,
+    SuppliedResource, UnbindableResource, VertexLayout, bindings_of_read_sets, push_needs, resource_needs, set_needs,
+    vertex_needs,
 };
 use std::sync::Arc;
 
@@ -143,7 +144,9 @@ fn pushed(shader: &Name, interface: &ShaderInterface, brought: &DrawInterface, e
     for block in &interface.pushed {
         let what = match (brought.pushed_misfit(block), interface.asks_part.first()) {
             (Some(misfit), _) => misfit,
-            (None, Some(part)) => format!("push constants `{}` beside the part of `{part}`, which is one too", block.name),
+            (None, Some(part)) => {
+                format!("push constants `{}` beside the part of `{part}`, which is one too", block.name)
+            }
             (None, None) => continue,
         };
         let message = format!("shader `{}` reads {what}", shader.text);

@@ -124,8 +124,9 @@ impl Context<'_> {
         let restart = optional(fields.primitive_restart, |leaf| self.truth(leaf).map(FieldValue::alone));
         let words = (cull_mode?, front_face?, topology?, restart?);
         let parts = (words, depth_bias?, depth_clamp?, line_width?, constants?);
-        let state =
-            combined(parts, |((cull_mode, front_face, topology, restart), depth_bias, depth_clamp, width, constants)| {
+        let state = combined(
+            parts,
+            |((cull_mode, front_face, topology, restart), depth_bias, depth_clamp, width, constants)| {
                 let usual = RasterState::default();
                 RasterState {
                     cull_mode,
@@ -137,7 +138,8 @@ impl Context<'_> {
                     line_width: width.unwrap_or(usual.line_width),
                     blend_constants: constants.unwrap_or(usual.blend_constants),
                 }
-            });
+            },
+        );
         Some(at(leaf, state))
     }
 
