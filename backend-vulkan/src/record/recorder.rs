@@ -363,9 +363,10 @@ impl<'f> Recorder<'f> {
             };
             let reach = u64::from(elements) * u64::from(*stride);
             let held = self.bound_bytes(*binding)?;
-            let buffer =
-                if *binding == 0 { "the vertex buffer".to_owned() } else { format!("vertex buffer {binding}") };
-            (!range.is_empty() && held < reach).then(|| format!("{what} {} lie beyond {buffer}", numbers(range)))
+            (!range.is_empty() && held < reach).then(|| match binding {
+                0 => format!("{what} {} lie beyond the vertex buffer", numbers(range)),
+                _ => format!("{what} {} lie beyond vertex buffer {binding}", numbers(range)),
+            })
         })
     }
 

@@ -74,8 +74,7 @@ pub struct CompiledCompute {
 /// macro `DEPTH_ONLY`: what is left decides which fragments stay. Where its alpha says how many samples are covered, it is
 /// compiled with the macro `ALPHA_TO_COVERAGE`. `NAME_st` in a stage that declares the sampler `NAME` stands
 /// for the part in use of the image that the pass gives as `NAME`. A name that the stage itself declares is its own, and no
-/// macro. What was once read or compiled is kept for the library's
-/// lifetime: changes on disk need a new library.
+/// macro. What was once read or compiled is kept for the library's lifetime: changes on disk need a new library.
 pub struct ShaderLibrary {
     sources: StageSources,
     draws: DrawInterfaces,

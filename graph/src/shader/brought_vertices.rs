@@ -156,6 +156,10 @@ impl Attribute {
                 _ => format!("the vertex attribute `{name}` is in vertex buffer {buffer}, and there are {count}"),
             });
         };
+        // That the buffer's elements have no bytes is told of the buffer.
+        if *stride == 0 {
+            return None;
+        }
         let end = u64::from(*offset) + u64::from(*locations) * u64::from(format.bytes());
         let alignment = format.alignment();
         let aligned = [*offset, *stride, format.bytes()].iter().all(|bytes| bytes.is_multiple_of(alignment));
