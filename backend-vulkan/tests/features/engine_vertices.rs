@@ -371,10 +371,10 @@ fn a_draw_source_draws_strips_fans_lines_and_points() {
         let points: Vec<_> = points.collect();
         assert_eq!(of(PrimitiveTopology::PointList, false, &mut Plain::new(device, &points, &[])), wanted);
         // A line through each row, from the left edge to the right one, in each quarter's colour.
-        let row = |y: u32, half: u32| {
-            let [left, right] = [half as f32 - 1.0, half as f32];
+        let row = |y: u32, half: u16| {
+            let [left, right] = [f32::from(half) - 1.0, f32::from(half)];
             #[allow(clippy::cast_precision_loss, reason = "small whole numbers")]
-            let value = value(quarter(4 * half, y)) as f32;
+            let value = value(quarter(4 * u32::from(half), y)) as f32;
             [[left, middle(y), value], [right, middle(y), value]]
         };
         let rows: Vec<_> = (0..8).flat_map(|y| [row(y, 0), row(y, 1)].concat()).collect();

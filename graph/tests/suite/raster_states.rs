@@ -6,7 +6,7 @@ use framewright_graph::base;
 use framewright_graph::expand::Inputs;
 use framewright_graph::plan::{Pass, Plan, RenderScope, Work};
 use framewright_graph::verify::verify;
-use framewright_graph::vulkan::{ColorComponents, CullMode, LoadOp};
+use framewright_graph::vulkan::{ColorComponents, CullMode, LoadOp, PrimitiveTopology};
 
 /// A pass that follows one that fills `color`.
 fn text(second: &str) -> String {
@@ -233,6 +233,8 @@ fn the_checker_finds_contents_that_are_lost() {
     assert!(wrong(whole, |scope| scope.passes[0].raster.cull_mode = Some(CullMode::Back)));
     assert!(!wrong(whole, |scope| scope.passes[0].raster.cull_mode = Some(CullMode::None)));
     assert!(wrong(whole, |scope| scope.passes[0].write_masks = vec![ColorComponents::RGBA; 2]));
+    assert!(wrong(whole, |scope| scope.passes[0].raster.primitive_restart = true));
+    assert!(wrong(whole, |scope| scope.passes[0].raster.topology = PrimitiveTopology::TriangleStrip));
     assert!(wrong(&format!("{whole}, covers: true"), |scope| {
         scope.passes[0].raster.cull_mode = Some(CullMode::FrontAndBack);
     }));
