@@ -7,7 +7,7 @@ use framewright_graph::frame::{
     Storage, Work,
 };
 use framewright_graph::plan::Plan;
-use framewright_graph::shader::{Attribute, DrawInterface, SuppliedKind, SuppliedResource};
+use framewright_graph::shader::{Attribute, DrawInterface, SuppliedKind, SuppliedResource, VertexBuffer};
 use framewright_graph::vulkan::{CompareOp, Format, Stages, Subresources};
 use framewright_vulkan::Device;
 use std::fmt::Write;
@@ -72,12 +72,13 @@ pub(crate) fn interface(draw: Draw) -> DrawInterface {
     }
     let supplied = |set, name, kind| SuppliedResource::new(set, 0, name, kind);
     DrawInterface {
-        vertex_stride: VERTEX_BYTES,
+        vertex_buffers: vec![VertexBuffer::of_vertices(VERTEX_BYTES)],
         attributes: vec![Attribute::new("position", 2, 0)],
         supplied: vec![
             supplied(FRAME_SET, "objects", SuppliedKind::StorageBlock),
             supplied(MATERIAL_SET, "material", SuppliedKind::UniformBlock),
         ],
+        ..DrawInterface::default()
     }
 }
 

@@ -9,9 +9,7 @@ use super::output_readback::OutputReadback;
 use super::submission::{SemaphorePoint, Submission};
 use crate::base::Error;
 use crate::gpu::{Device, Gpu, PipelineHold, ScopeFormats};
-use crate::prepare::{
-    Frame, PreparedPlan, Refusals, ResourceUses, StagedTexture, check, scope_formats, stage_textures,
-};
+use crate::prepare::{Frame, PreparedPlan, Refusals, ResourceUses, StagedTexture, check, stage_textures};
 use crate::record::{DrawSource, FrameReport, GuardedSource};
 use crate::resources::{ProgramSets, RawSet};
 use crate::shaders::ShaderLibrary;
@@ -117,7 +115,7 @@ impl Executor {
             readbacks: if options.readback { OutputReadback::all(plan, &uses)? } else { Vec::new() },
             frames: Frames::new(gpu, plan, &imports, options)?,
             prepared: PreparedPlan::new(gpu, plan, shaders, options.debugging())?,
-            sets: ProgramSets::default(),
+            sets: ProgramSets::new(shaders.draws().sets()),
             owners: Vec::new(),
             in_turn: Vec::new(),
             missing: Vec::new(),
@@ -238,9 +236,10 @@ impl Executor {
     /// no rendering scope has such a pass. So the pipelines can be made before the first frame.
     #[must_use]
     pub fn formats(&self, pass: &str) -> Option<ScopeFormats> {
-        let scopes = self.plan.steps.iter().filter_map(|step| step.work.scope());
-        let mut with_pass = scopes.filter(|scope| scope.passes.iter().any(|it| *it.name == *pass));
-        with_pass.next().map(|scope| scope_formats(&self.plan, scope))
+        self.plan.steps.iter().zip(&self.prepared.steps).find_map(|(step, made)| {
+            let number = step.work.scope()?.passes.iter().position(|it| *it.name == *pass)?;
+            Some(made.draws()[number].state.formats.clone())
+        })
     }
 
     /// Makes ready for the next frame, which uses these images of the program's, and returns its number among its own.
@@ -248,6 +247,7 @@ impl Executor {
         if let Some(name) = self.not_imported() {
             return Err(Error::NotImported { name: name.to_owned() });
         }
+        self.sets.check_all().map_err(|what| Error::BadResource { what })?;
         let of_window = self.owners.iter().find(|(name, _)| images.iter().all(|(chosen, _)| chosen != name));
         if let Some((name, _)) = of_window {
             let what = format!("`{name}` is shown in a window: `present` draws it, or another image is imported first");
@@ -287,7 +287,8 @@ impl Executor {
     /// Binds a set that the program makes itself for all passes whose shaders read the set of this number, in frames from now on, with its
     /// dynamic offsets. It takes the place of the one before. An executor that [goes on](Executor::migrate_from) from this one keeps it.
     ///
-    /// That the set doesn't fit is an error of the frame ([`Error::Recording`]), and so is a set that a shader reads and nobody has bound.
+    /// That the set doesn't fit is an error of the frame ([`Error::Recording`]), and so is a set that a shader reads and nobody has bound. A number
+    /// that the program has told no set of is an error of each frame, too ([`Error::BadResource`]).
     pub fn bind_set(&mut self, number: u32, set: RawSet, offsets: &[u32]) {
         self.sets.bind(number, set, offsets);
     }

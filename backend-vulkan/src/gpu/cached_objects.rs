@@ -9,6 +9,7 @@ use crate::shaders::Spirv;
 use ash::vk;
 use framewright_graph::frame::{Blend, RasterState, StencilState};
 use framewright_graph::plan::DepthState;
+use framewright_graph::shader::VertexRate;
 use framewright_graph::vulkan::{AddressMode, ColorComponents, Filter, Rotation, Sampler};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -17,7 +18,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 pub(crate) struct Caches {
     pub(crate) samplers: ObjectCache<(SamplerDescriptor, Sampler), vk::Sampler>,
     pub(crate) set_layouts: ObjectCache<Vec<LayoutBinding>, vk::DescriptorSetLayout>,
-    pub(crate) pipeline_layouts: ObjectCache<Vec<vk::DescriptorSetLayout>, vk::PipelineLayout>,
+    /// By set layouts, and the bytes of push constants.
+    pub(crate) pipeline_layouts: ObjectCache<(Vec<vk::DescriptorSetLayout>, u32), vk::PipelineLayout>,
     pub(crate) pipelines: ObjectCache<PipelineDescriptor, vk::Pipeline>,
     /// How many hold on to pipelines.
     holders: Mutex<u32>,
@@ -116,6 +118,9 @@ pub struct ScopeFormats {
     pub samples: vk::SampleCountFlags,
     /// Views that are drawn at once, a bit for each; 0 where there are none.
     pub view_mask: u32,
+    /// How the pass sees the colour attachments of its scope, where passes of the scope read what it drew; `None`: output locations and
+    /// input attachments have the numbers of the attachments.
+    pub local: Option<LocalReads>,
 }
 
 /// Everything that a pipeline is made of.
@@ -132,8 +137,8 @@ pub(crate) struct GraphicsDescriptor {
     /// `None`: nothing but depth is drawn.
     pub(crate) fragment: Option<Spirv>,
     pub(crate) layout: vk::PipelineLayout,
-    /// Bytes from vertex to vertex in each vertex buffer.
-    pub(crate) strides: Vec<u32>,
+    /// The vertex buffers that the attributes are read from.
+    pub(crate) vertex_buffers: Vec<VertexBinding>,
     pub(crate) attributes: Vec<VertexAttribute>,
     pub(crate) formats: ScopeFormats,
     /// How each colour attachment is blended, and which channels of it are written. `None`: it isn't written.
@@ -142,7 +147,6 @@ pub(crate) struct GraphicsDescriptor {
     pub(crate) depth: Option<DepthState>,
     pub(crate) stencil: Option<StencilState>,
     pub(crate) alpha_to_coverage: bool,
-    pub(crate) local: Option<LocalRead>,
     pub(crate) turned: Option<RotationConstants>,
 }
 
@@ -154,13 +158,25 @@ pub(crate) struct RotationConstants {
     pub(crate) extent: [u32; 2],
 }
 
-/// How a pass of a rendering scope with local reads sees the scope's colour attachments.
+/// How a pass of a rendering scope with local reads sees the scope's colour attachments: what a pipeline chains to fit, and how it blends.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
-pub(crate) struct LocalRead {
-    /// The shader's output location of each.
-    pub(crate) locations: Vec<u32>,
-    /// The shader's input attachment index of each.
-    pub(crate) inputs: Vec<u32>,
+#[non_exhaustive]
+pub struct LocalReads {
+    /// The shader's output location of each (`VkRenderingAttachmentLocationInfoKHR`).
+    pub locations: Vec<u32>,
+    /// The shader's input attachment index of each (`VkRenderingInputAttachmentIndexInfoKHR`).
+    pub inputs: Vec<u32>,
+    /// Whether the pass draws into each. Of those that it doesn't draw into no channel is written.
+    pub drawn: Vec<bool>,
+}
+
+/// A vertex buffer of a pipeline.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(crate) struct VertexBinding {
+    pub(crate) binding: u32,
+    /// Bytes from element to element.
+    pub(crate) stride: u32,
+    pub(crate) rate: VertexRate,
 }
 
 /// A vertex attribute.

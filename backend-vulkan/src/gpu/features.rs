@@ -2,7 +2,7 @@
 
 use super::minimum::has_extensions;
 use super::needed_features::NEEDED_FEATURES;
-use ash::{khr, vk};
+use ash::{ext, khr, vk};
 use std::ffi::CStr;
 use std::marker::PhantomData;
 
@@ -15,6 +15,7 @@ pub(crate) struct Features {
     pub(super) v1_3: vk::PhysicalDeviceVulkan13Features<'static>,
     local_read: vk::PhysicalDeviceDynamicRenderingLocalReadFeaturesKHR<'static>,
     pub(super) barycentric: vk::PhysicalDeviceFragmentShaderBarycentricFeaturesKHR<'static>,
+    pub(super) divisor: vk::PhysicalDeviceVertexAttributeDivisorFeaturesKHR<'static>,
     subgroups: Subgroups,
 }
 
@@ -86,9 +87,10 @@ const OPTIONAL_FEATURES: [OptionalFeature; 4] = [
 ];
 
 /// Features that come with an extension of the device: its name, and the flag. They are used where a device has them.
-const OF_EXTENSIONS: [(&CStr, Flag); 2] = [
+const OF_EXTENSIONS: [(&CStr, Flag); 3] = [
     (khr::dynamic_rendering_local_read::NAME, |it| &mut it.local_read.dynamic_rendering_local_read),
     (khr::fragment_shader_barycentric::NAME, |it| &mut it.barycentric.fragment_shader_barycentric),
+    (ext::vertex_attribute_divisor::NAME, |it| &mut it.divisor.vertex_attribute_instance_rate_divisor),
 ];
 
 /// The flag of a feature, by Vulkan's name.
@@ -127,7 +129,9 @@ impl Features {
         let mut v1_3 = vk::PhysicalDeviceVulkan13Features::default();
         let mut local = vk::PhysicalDeviceDynamicRenderingLocalReadFeaturesKHR::default();
         let mut barycentric = vk::PhysicalDeviceFragmentShaderBarycentricFeaturesKHR::default();
-        let [has_local_read, has_barycentric] = has_extensions(instance, physical, OF_EXTENSIONS.map(|(name, _)| name));
+        let mut divisor = vk::PhysicalDeviceVertexAttributeDivisorFeaturesKHR::default();
+        let [has_local_read, has_barycentric, has_divisor] =
+            has_extensions(instance, physical, OF_EXTENSIONS.map(|(name, _)| name));
         let mut all = vk::PhysicalDeviceFeatures2::default();
         all = all.push_next(&mut v1_1).push_next(&mut v1_2).push_next(&mut v1_3);
         if has_local_read {
@@ -135,6 +139,9 @@ impl Features {
         }
         if has_barycentric {
             all = all.push_next(&mut barycentric);
+        }
+        if has_divisor {
+            all = all.push_next(&mut divisor);
         }
         // SAFETY: `physical` belongs to `instance`, and the chained structures outlive the call.
         unsafe { instance.get_physical_device_features2(physical, &mut all) };
@@ -144,9 +151,10 @@ impl Features {
         v1_3.p_next = std::ptr::null_mut();
         local.p_next = std::ptr::null_mut();
         barycentric.p_next = std::ptr::null_mut();
+        divisor.p_next = std::ptr::null_mut();
         let subgroups = Subgroups::of(instance, physical);
         without_unchecked(instance, physical, &mut v1_2);
-        Features { core, v1_1, v1_2, v1_3, local_read: local, barycentric, subgroups }
+        Features { core, v1_1, v1_2, v1_3, local_read: local, barycentric, divisor, subgroups }
     }
 
     /// The features that are switched on: those of the minimum, what [`optional_features`] lists beyond it, and local
@@ -291,6 +299,10 @@ impl Features {
                     let it = read!(PhysicalDeviceFragmentShaderBarycentricFeaturesKHR);
                     on.barycentric.fragment_shader_barycentric = it.fragment_shader_barycentric;
                 }
+                Is::PHYSICAL_DEVICE_VERTEX_ATTRIBUTE_DIVISOR_FEATURES_KHR => {
+                    let it = read!(PhysicalDeviceVertexAttributeDivisorFeaturesKHR);
+                    on.divisor.vertex_attribute_instance_rate_divisor = it.vertex_attribute_instance_rate_divisor;
+                }
                 _ => {}
             }
             next = structure.p_next;
@@ -323,8 +335,8 @@ impl Features {
 
     /// A copy, chained to nothing.
     pub(crate) fn copy(&self) -> Features {
-        let Features { core, v1_1, v1_2, v1_3, local_read, barycentric, subgroups } = *self;
-        Features { core, v1_1, v1_2, v1_3, local_read, barycentric, subgroups }
+        let Features { core, v1_1, v1_2, v1_3, local_read, barycentric, divisor, subgroups } = *self;
+        Features { core, v1_1, v1_2, v1_3, local_read, barycentric, divisor, subgroups }
     }
 
     /// The device's extensions that the features come with.
@@ -380,6 +392,7 @@ impl Features {
         self.v1_3.p_next = std::ptr::null_mut();
         self.local_read.p_next = std::ptr::null_mut();
         self.barycentric.p_next = std::ptr::null_mut();
+        self.divisor.p_next = std::ptr::null_mut();
         let chain = vk::PhysicalDeviceFeatures2::default().features(self.core);
         let mut chain = chain.push_next(&mut self.v1_1).push_next(&mut self.v1_2).push_next(&mut self.v1_3);
         if self.local_read.dynamic_rendering_local_read == vk::TRUE {
@@ -387,6 +400,9 @@ impl Features {
         }
         if self.barycentric.fragment_shader_barycentric == vk::TRUE {
             chain = chain.push_next(&mut self.barycentric);
+        }
+        if self.divisor.vertex_attribute_instance_rate_divisor == vk::TRUE {
+            chain = chain.push_next(&mut self.divisor);
         }
         chain
     }

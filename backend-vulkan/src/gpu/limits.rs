@@ -3,11 +3,20 @@
 use super::Gpu;
 use ash::vk;
 use framewright_graph::device::Limits;
+use framewright_graph::vulkan::VertexFormat;
 
 impl Gpu {
     /// The limits for what shaders use, as profiles tell them.
     pub(crate) fn shader_limits(&self) -> Limits {
         limits_of(&self.limits, self.max_buffer_size())
+    }
+
+    /// Whether the device reads vertices of a format.
+    pub(crate) fn reads_vertices(&self, format: VertexFormat) -> bool {
+        let format = vk::Format::from_raw(format.vulkan());
+        // SAFETY: the physical device belongs to the instance.
+        let features = unsafe { self.instance.raw.get_physical_device_format_properties(self.physical, format) };
+        features.buffer_features.contains(vk::FormatFeatureFlags::VERTEX_BUFFER)
     }
 
     /// Bytes of the largest buffer.
@@ -51,6 +60,11 @@ fn limits_of(limits: &vk::PhysicalDeviceLimits, buffer_bytes: u64) -> Limits {
         set_storage_blocks: limits.max_descriptor_set_storage_buffers.into(),
         set_input_attachments: limits.max_descriptor_set_input_attachments.into(),
         fragment_resources: limits.max_fragment_combined_output_resources.into(),
+        vertex_buffers: limits.max_vertex_input_bindings.into(),
+        vertex_attributes: limits.max_vertex_input_attributes.into(),
+        vertex_offset: limits.max_vertex_input_attribute_offset.into(),
+        vertex_stride: limits.max_vertex_input_binding_stride.into(),
+        push_constant_bytes: limits.max_push_constants_size.into(),
         line_width: whole(limits.line_width_range[1]),
         anisotropy: whole(limits.max_sampler_anisotropy),
         lod_bias: whole(limits.max_sampler_lod_bias),

@@ -23,7 +23,7 @@ mod validation;
 mod words;
 
 pub use adopted_device::AdoptedDevice;
-pub use cached_objects::{SamplerDescriptor, ScopeFormats};
+pub use cached_objects::{LocalReads, SamplerDescriptor, ScopeFormats};
 pub use device::{Device, DeviceOptions};
 pub use device_features::DeviceFeatures;
 pub use features::{minimum_features, optional_features};
@@ -34,7 +34,8 @@ pub use surface::rotation_of_surface;
 pub use validation::{Message, MessageKind, Messages, Severity};
 
 pub(crate) use cached_objects::{
-    GraphicsDescriptor, LayoutBinding, LocalRead, PipelineDescriptor, PipelineHold, RotationConstants, VertexAttribute,
+    GraphicsDescriptor, LayoutBinding, PipelineDescriptor, PipelineHold, RotationConstants, VertexAttribute,
+    VertexBinding,
 };
 pub(crate) use device::TestedDevice;
 pub(crate) use handle::{Gpu, PendingWork};

@@ -3,7 +3,7 @@
 use super::features::OptionalFeature;
 
 /// Features that are used where a device has them, and that pipelines can need by their shaders and draws: profiles tell of these.
-pub(super) const NEEDED_FEATURES: [OptionalFeature; 60] = [
+pub(super) const NEEDED_FEATURES: [OptionalFeature; 61] = [
     ("imageCubeArray", "shaders that see several cubes at once", |it| &mut it.core.image_cube_array),
     (
         "shaderSampledImageArrayDynamicIndexing",
@@ -164,6 +164,9 @@ pub(super) const NEEDED_FEATURES: [OptionalFeature; 60] = [
     ("shaderCullDistance", "triangles that a vertex shader leaves out", |it| &mut it.core.shader_cull_distance),
     ("fragmentShaderBarycentric", "places within a triangle, in fragment shaders", |it| {
         &mut it.barycentric.fragment_shader_barycentric
+    }),
+    ("vertexAttributeInstanceRateDivisor", "vertex attributes that several instances share", |it| {
+        &mut it.divisor.vertex_attribute_instance_rate_divisor
     }),
     ("geometryShader", "numbers of primitives in fragment shaders", |it| &mut it.core.geometry_shader),
     ("shaderSubgroupExtendedTypes", "operations of subgroups on numbers that don't have 32 bits", |it| {

@@ -1,29 +1,44 @@
 //! Whether a shader fits what its pass, its draw source and the device give it.
 
-use crate::gpu::{Gpu, VertexAttribute};
+use crate::gpu::{Gpu, VertexAttribute, VertexBinding};
 use ash::vk;
 use framewright_graph::device::Abilities;
 use framewright_graph::plan::{self, Plan};
 use framewright_graph::shader::{
     DrawInterface, DrawInterfaces, LocationLayout, PASS_SET, ProgramResource, ProgramSet, ShaderInterface,
-    SuppliedResource, VertexInput, VertexLayout, bindings_of_read_sets, resource_needs, set_needs,
+    SuppliedResource, VertexLayout, VertexRate, bindings_of_read_sets, push_needs, resource_needs, set_needs,
+    vertex_needs,
 };
 use framewright_graph::vulkan::Component;
 
-/// Checks a shader against the device's features and limits, with the resources that the draw source brings along, whether the shader
-/// reads them or not, the program's sets of which it reads anything, and the number of its pass's targets.
+/// Checks a shader against the device's features and limits, with the vertices that it reads and the resources that the draw source brings
+/// along, whether the shader reads those or not, the program's sets of which it reads anything, and the number of its pass's targets.
 pub(crate) fn check_needs<'s>(
     gpu: &Gpu,
     shader: &'s ShaderInterface,
-    brought: impl Iterator<Item = &'s SuppliedResource> + Clone,
+    brought: &'s DrawInterface,
     sets: &'s [ProgramSet],
     targets: usize,
 ) -> Result<(), String> {
     let limits = gpu.shader_limits();
-    let abilities = Abilities { device: "this device", limits: Some(&limits), has: &|name| gpu.features.has(name) };
-    let of_resources = resource_needs(shader, brought, bindings_of_read_sets(&shader.program, sets), targets);
+    let abilities = Abilities {
+        device: "this device",
+        limits: Some(&limits),
+        has: &|name| gpu.features.has(name),
+        reads_vertices: &|format| gpu.reads_vertices(format),
+    };
+    let mut of_vertices = vertex_needs(&shader.vertex_inputs, brought);
+    of_vertices.extend(push_needs(brought).filter(|_| !shader.pushed.is_empty()));
+    let of_resources =
+        resource_needs(shader, brought.supplied.iter(), bindings_of_read_sets(&shader.program, sets), targets);
     let of_sets = set_needs(&shader.program, sets);
-    let unmet = shader.needs.iter().chain(&of_resources).chain(&of_sets).find_map(|need| need.unmet(&abilities));
+    let unmet = shader
+        .needs
+        .iter()
+        .chain(&of_resources)
+        .chain(&of_sets)
+        .chain(&of_vertices)
+        .find_map(|need| need.unmet(&abilities));
     unmet.map_or(Ok(()), Err)
 }
 
@@ -42,6 +57,15 @@ pub(crate) fn check_supplied(shader: &ShaderInterface, brought: &DrawInterface) 
         }
     }
     Ok(())
+}
+
+/// Push constants: what the shader reads must be what the draw brings along, and no part of an image is told beside it.
+pub(crate) fn check_pushed(shader: &ShaderInterface, brought: &DrawInterface, parts: bool) -> Result<(), String> {
+    let misfit = shader.pushed.iter().find_map(|block| brought.pushed_misfit(block));
+    let beside = || shader.pushed.first().filter(|_| parts);
+    let beside =
+        || beside().map(|it| format!("push constants `{}` beside parts of images, which are some too", it.name));
+    misfit.or_else(beside).map_or(Ok(()), |misfit| Err(format!("the shader reads {misfit}")))
 }
 
 /// Sets of the program's: what the shader reads of them must be what they are.
@@ -96,30 +120,35 @@ pub(crate) fn check_brought(brought: &DrawInterface) -> Result<(), String> {
     brought.faults().into_iter().next().map_or(Ok(()), |fault| Err(fault.message))
 }
 
-/// The vertex attributes by the shader's locations, from one buffer that the draw source provides.
+/// The vertex attributes by the shader's locations, from the buffers of a draw source, and those of the buffers that are read.
 pub(crate) fn brought_attributes(
     shader: &ShaderInterface,
     brought: &DrawInterface,
-) -> Result<Vec<VertexAttribute>, String> {
-    let attribute = |input: &VertexInput| {
-        let found = brought.attributes.iter().find(|it| it.name == *input.name);
-        let found = found.ok_or_else(|| format!("vertices of this kind of draw have no `{}`", input.name))?;
-        if !input.is_float() {
-            let (name, ty) = (&input.name, &input.ty);
-            let what = format!("the vertex attribute `{name}` is a {ty} at component {}", input.component);
-            return Err(format!("{what}, and floats at locations of their own are brought along"));
-        }
-        let format = attribute_format(Component::Float, found.components);
-        Ok(VertexAttribute { location: input.location, binding: 0, format, offset: found.offset })
-    };
-    shader.vertex_inputs.iter().map(attribute).collect()
+) -> Result<(Vec<VertexAttribute>, Vec<VertexBinding>), String> {
+    let mut attributes = Vec::new();
+    for input in &shader.vertex_inputs {
+        let (name, ty) = (&input.name, &input.ty);
+        let locations = brought.locations(input).map_err(|misfit| match misfit.help(input) {
+            None => format!("vertices of this kind of draw have no `{name}`"),
+            Some(help) => format!("the shader declares the vertex attribute `{name}` as {ty}: {help}"),
+        })?;
+        attributes.extend(locations.map(|it| {
+            let format = vk::Format::from_raw(it.format.vulkan());
+            VertexAttribute { location: it.location, binding: it.buffer, format, offset: it.offset }
+        }));
+    }
+    let is_read = |binding: &u32| attributes.iter().any(|it| it.binding == *binding);
+    let buffers = (0..).zip(&brought.vertex_buffers).filter(|(binding, _)| is_read(binding));
+    let buffers = buffers.map(|(binding, buffer)| VertexBinding { binding, stride: buffer.stride, rate: buffer.rate });
+    let buffers = buffers.collect();
+    Ok((attributes, buffers))
 }
 
-/// The vertex attributes from the pass's own vertex buffers, with the bytes from vertex to vertex of each.
+/// The vertex attributes from the pass's own vertex buffers, and those buffers.
 pub(crate) fn own_attributes(
     shader: &ShaderInterface,
     buffers: usize,
-) -> Result<(Vec<VertexAttribute>, Vec<u32>), String> {
+) -> Result<(Vec<VertexAttribute>, Vec<VertexBinding>), String> {
     let VertexLayout { locations, strides } =
         VertexLayout::of(&shader.vertex_inputs, buffers).map_err(|fault| fault.message)?;
     let attribute = |it: &LocationLayout| VertexAttribute {
@@ -128,7 +157,8 @@ pub(crate) fn own_attributes(
         format: attribute_format(it.kind, it.components),
         offset: it.offset,
     };
-    Ok((locations.iter().map(attribute).collect(), strides))
+    let buffer = |(binding, stride)| VertexBinding { binding, stride, rate: VertexRate::Vertex };
+    Ok((locations.iter().map(attribute).collect(), (0..).zip(strides).map(buffer).collect()))
 }
 
 /// The format of an attribute of 32-bit components.

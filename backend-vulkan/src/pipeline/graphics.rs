@@ -3,9 +3,10 @@
 use super::create::created;
 use super::shader_module::ShaderModule;
 use crate::base::{Error, convert};
-use crate::gpu::{Gpu, GraphicsDescriptor, RotationConstants, VertexAttribute};
+use crate::gpu::{Gpu, GraphicsDescriptor, RotationConstants, VertexAttribute, VertexBinding};
 use ash::vk;
 use framewright_graph::frame::{Blend, RasterState};
+use framewright_graph::shader::VertexRate;
 use framewright_graph::vulkan::ColorComponents;
 
 impl RotationConstants {
@@ -39,20 +40,19 @@ pub(super) fn create(gpu: &Gpu, descriptor: &GraphicsDescriptor) -> Result<(vk::
     };
     let fragment = fragment.as_ref().map(|fragment| stage(vk::ShaderStageFlags::FRAGMENT, fragment));
     let stages: Vec<_> = [stage(vk::ShaderStageFlags::VERTEX, &vertex)].into_iter().chain(fragment).collect();
-    let bindings: Vec<_> = (0..)
-        .zip(&descriptor.strides)
-        .map(|(binding, stride)| {
-            let input_rate = vk::VertexInputRate::VERTEX;
-            vk::VertexInputBindingDescription { binding, stride: *stride, input_rate }
-        })
-        .collect();
+    let bindings: Vec<_> = descriptor.vertex_buffers.iter().map(vertex_buffer).collect();
+    let divisors: Vec<_> = descriptor.vertex_buffers.iter().filter_map(divisor).collect();
+    let mut divided = vk::PipelineVertexInputDivisorStateCreateInfoKHR::default().vertex_binding_divisors(&divisors);
     let attributes: Vec<_> = descriptor.attributes.iter().map(attribute).collect();
-    let mut vertex_input = vk::PipelineVertexInputStateCreateInfo::default().vertex_attribute_descriptions(&attributes);
-    if !attributes.is_empty() {
-        vertex_input = vertex_input.vertex_binding_descriptions(&bindings);
+    let mut vertex_input = vk::PipelineVertexInputStateCreateInfo::default()
+        .vertex_attribute_descriptions(&attributes)
+        .vertex_binding_descriptions(&bindings);
+    if !divisors.is_empty() {
+        vertex_input = vertex_input.push_next(&mut divided);
     }
-    let input_assembly =
-        vk::PipelineInputAssemblyStateCreateInfo::default().topology(convert::topology(descriptor.raster.topology));
+    let input_assembly = vk::PipelineInputAssemblyStateCreateInfo::default()
+        .topology(convert::topology(descriptor.raster.topology))
+        .primitive_restart_enable(descriptor.raster.primitive_restart);
     let viewport = vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
     let raster = raster_state(&descriptor.raster);
     let multisample = vk::PipelineMultisampleStateCreateInfo::default()
@@ -93,7 +93,7 @@ pub(super) fn create(gpu: &Gpu, descriptor: &GraphicsDescriptor) -> Result<(vk::
         .color_attachment_formats(&formats.color)
         .depth_attachment_format(formats.depth)
         .stencil_attachment_format(formats.stencil);
-    let local = descriptor.local.as_ref();
+    let local = formats.local.as_ref();
     let mut locations = vk::RenderingAttachmentLocationInfoKHR::default()
         .color_attachment_locations(local.map_or(&[][..], |local| &local.locations[..]));
     let mut inputs = vk::RenderingInputAttachmentIndexInfoKHR::default()
@@ -127,6 +127,23 @@ pub(super) fn create(gpu: &Gpu, descriptor: &GraphicsDescriptor) -> Result<(vk::
 pub(crate) fn or_unused<T: Default>(attachments: impl Iterator<Item = T>) -> Vec<T> {
     let attachments: Vec<T> = attachments.collect();
     if attachments.is_empty() { vec![T::default()] } else { attachments }
+}
+
+fn vertex_buffer(buffer: &VertexBinding) -> vk::VertexInputBindingDescription {
+    let VertexBinding { binding, stride, rate } = *buffer;
+    let by_instance = rate.is_by_instance();
+    let input_rate = if by_instance { vk::VertexInputRate::INSTANCE } else { vk::VertexInputRate::VERTEX };
+    vk::VertexInputBindingDescription { binding, stride, input_rate }
+}
+
+/// How many instances share an element, where that is more than one.
+fn divisor(buffer: &VertexBinding) -> Option<vk::VertexInputBindingDivisorDescriptionKHR> {
+    match buffer.rate {
+        VertexRate::Instance { divisor } if divisor > 1 => {
+            Some(vk::VertexInputBindingDivisorDescriptionKHR { binding: buffer.binding, divisor })
+        }
+        VertexRate::Instance { .. } | VertexRate::Vertex => None,
+    }
 }
 
 fn attribute(attribute: &VertexAttribute) -> vk::VertexInputAttributeDescription {

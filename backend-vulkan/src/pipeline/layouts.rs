@@ -40,10 +40,15 @@ impl Gpu {
         })
     }
 
-    /// The pipeline layout with these set layouts, and room for the parts of images that passes use.
-    pub(crate) fn pipeline_layout(&self, sets: Vec<vk::DescriptorSetLayout>) -> Result<vk::PipelineLayout, Error> {
-        self.caches.pipeline_layouts.get(&sets, |sets| {
-            let parts = [vk::PushConstantRange { stage_flags: PARTS_STAGES, offset: 0, size: PARTS_BYTES }];
+    /// The pipeline layout with these set layouts, and room for the parts of images that passes use, and for so many bytes of push
+    /// constants. All are one range, which all stages see.
+    pub(crate) fn pipeline_layout(
+        &self,
+        sets: Vec<vk::DescriptorSetLayout>,
+        pushed: u32,
+    ) -> Result<vk::PipelineLayout, Error> {
+        self.caches.pipeline_layouts.get(&(sets, PARTS_BYTES.max(pushed)), |(sets, size)| {
+            let parts = [vk::PushConstantRange { stage_flags: PARTS_STAGES, offset: 0, size: *size }];
             let info = vk::PipelineLayoutCreateInfo::default().set_layouts(sets).push_constant_ranges(&parts);
             // SAFETY: the set layouts live as long as the device.
             unsafe { self.raw.create_pipeline_layout(&info, None) }.map_err(Error::vulkan("creating a pipeline layout"))

@@ -11,7 +11,8 @@ mod shader_module;
 
 pub(crate) use descriptor_set::{DescriptorSet, DescriptorTarget};
 pub(crate) use fit::{
-    brought_attributes, check_brought, check_needs, check_outputs, check_program, check_supplied, own_attributes,
+    brought_attributes, check_brought, check_needs, check_outputs, check_program, check_pushed, check_supplied,
+    own_attributes,
 };
 pub(crate) use graphics::or_unused;
 pub(crate) use layouts::PARTS_STAGES;

@@ -5,7 +5,7 @@ use super::draw_target::DrawTarget;
 use super::rings::{Period, RingCache, Turn};
 use crate::base::Error;
 use crate::commands::{TransferCommand, stages_of};
-use crate::gpu::{Gpu, LocalRead};
+use crate::gpu::{Gpu, LocalReads};
 use ash::vk;
 use framewright_graph::frame::RasterState;
 use framewright_graph::plan::Pass;
@@ -51,7 +51,7 @@ pub(crate) enum Command {
     /// Makes what the scope drew so far visible to its fragment shaders at their own position.
     LocalBarrier,
     /// Sets what locations and input attachments the scope's colour attachments are to the next passes.
-    SeeAttachments(Box<LocalRead>),
+    SeeAttachments(Box<LocalReads>),
     /// A pass of the scope.
     Draw(DrawCommand),
     /// Ends the rendering scope.

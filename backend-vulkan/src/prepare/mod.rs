@@ -40,4 +40,4 @@ pub(crate) use step::{PreparedStep, title};
 pub(crate) use supplied_sets::{SuppliedBlock, SuppliedSet, SuppliedSets};
 pub(crate) use textures::{StagedTexture, file_of, stage_textures};
 pub(crate) use uses::ResourceUses;
-pub(crate) use variant::{scope_formats, view_mask};
+pub(crate) use variant::view_mask;

@@ -8,15 +8,20 @@ use super::pass_set::PassSets;
 use super::supplied_sets::SuppliedSets;
 use super::variant::{scope_formats, variant};
 use crate::base::{Error, by};
-use crate::gpu::{Gpu, GraphicsDescriptor, LocalRead, PipelineDescriptor, RotationConstants, ScopeFormats};
+use crate::gpu::{
+    Gpu, GraphicsDescriptor, LocalReads, PipelineDescriptor, RotationConstants, ScopeFormats, VertexBinding,
+};
 use crate::pipeline::{
-    brought_attributes, check_brought, check_needs, check_outputs, check_program, check_supplied, own_attributes,
+    brought_attributes, check_brought, check_needs, check_outputs, check_program, check_pushed, check_supplied,
+    own_attributes,
 };
 use crate::shaders::{CompiledShader, ShaderLibrary};
 use ash::vk;
-use framewright_graph::frame::{BufferRole, Draw, EyeForm, Groups};
+use framewright_graph::frame::{BufferRole, Draw, EyeForm, Groups, Stereo};
 use framewright_graph::plan::{self, BufferId, Plan, RenderScope};
-use framewright_graph::shader::{DrawInterface, PASS_SET, ShaderInterface, ShaderInterfaces, ShaderProblem};
+use framewright_graph::shader::{
+    DrawInterface, PASS_SET, PushedBlock, ShaderInterface, ShaderInterfaces, ShaderProblem,
+};
 use framewright_graph::vulkan::{Accesses, PrimitiveTopology};
 use std::sync::Arc;
 
@@ -27,7 +32,7 @@ pub(crate) struct PreparedDraw {
     /// `None`: a custom draw for which there is no shader, and whose program brings its own pipeline.
     pub(crate) pipeline: Option<PassPipeline>,
     /// How the pass sees the scope's colour attachments; `None` where no pass of the scope reads them locally.
-    pub(crate) local: Option<LocalRead>,
+    pub(crate) local: Option<LocalReads>,
     pub(crate) state: PassState,
     /// The pass's own vertex buffers.
     vertices: Vec<BufferId>,
@@ -45,8 +50,14 @@ pub(crate) struct PassPipeline {
 pub(crate) struct PassState {
     pub(crate) formats: ScopeFormats,
     pub(crate) supplied: SuppliedSets,
-    /// Bytes from vertex to vertex of what the draw source provides; 0 if the pipeline reads no such vertex buffer.
-    pub(crate) vertex_stride: u32,
+    /// The vertex buffers that the pipeline reads and the draw source provides.
+    pub(crate) vertex_buffers: Vec<VertexBinding>,
+    /// How many vertex buffers the draw source provides.
+    pub(crate) brought_buffers: u32,
+    /// The blocks of push constants that its stages read.
+    pub(crate) pushed: Vec<PushedBlock>,
+    /// The bytes of push constants that the draw source provides; 0 if no stage reads any.
+    pub(crate) pushed_bytes: u32,
     /// As [`crate::shaders::CompiledShader::usual_vertices`].
     pub(crate) usual_vertices: bool,
 }
@@ -188,11 +199,11 @@ pub(super) fn prepare_dispatch(
         .map_err(|problem| Error::Shader { name: pass.shader.to_string(), problem })?;
     // A shader that reads nothing of it isn't held to what the device can bind of it.
     let reads = shader.interface.bindings.iter().any(|binding| binding.set != PASS_SET);
-    let brought = if reads { shaders.brought_along(None) } else { DrawInterface::default() };
+    let brought = if reads { shaders.brought_along(None, &pass.shader) } else { DrawInterface::default() };
     check_brought(&brought).map_err(mismatch)?;
     check_program(&shader.interface, shaders.draws()).map_err(mismatch)?;
     let sets = shaders.draws().sets();
-    check_needs(gpu, &shader.interface, brought.supplied.iter(), sets, 0).map_err(mismatch)?;
+    check_needs(gpu, &shader.interface, &brought, sets, 0).map_err(mismatch)?;
     check_supplied(&shader.interface, &brought).map_err(mismatch)?;
     let size = shader.interface.workgroup_size.unwrap_or([1; 3]);
     let sets = PassSets::new(gpu, plan, pass, &shader.interface.bindings)?;
@@ -219,16 +230,19 @@ pub(super) fn prepare_draw(
         _ => return Err(mismatch("it has several index buffers".to_owned())),
     };
     let indirect = if draw.is_indirect() { Some(indirect(pass).map_err(mismatch)?) } else { None };
-    let formats = scope_formats(plan, scope);
-    let nothing = |sets| PreparedDraw {
+    let targets = targets(plan, scope, pass).map_err(mismatch)?;
+    let nothing = |sets, formats: ScopeFormats| PreparedDraw {
         draw,
         sets,
         pipeline: None,
-        local: None,
+        local: formats.local.clone(),
         state: PassState {
-            formats: formats.clone(),
+            formats,
             supplied: SuppliedSets::default(),
-            vertex_stride: 0,
+            vertex_buffers: Vec::new(),
+            brought_buffers: 0,
+            pushed: Vec::new(),
+            pushed_bytes: 0,
             usual_vertices: false,
         },
         vertices: Vec::new(),
@@ -238,36 +252,38 @@ pub(super) fn prepare_draw(
     let form = plan.eyes(scope);
     let shader = match shaders.compiled(&pass.shader, draw, &variant(plan, pass, Some(scope))?) {
         Err(ShaderProblem::Missing { .. }) if draw.is_custom() => {
-            return Ok(nothing(PassSets::empty(gpu)?));
+            let local = local_reads(gpu, scope, pass, None, &targets).map_err(mismatch)?;
+            return Ok(nothing(PassSets::empty(gpu)?, ScopeFormats { local, ..scope_formats(plan, scope) }));
         }
         other => other.map_err(|problem| Error::Shader { name: pass.shader.to_string(), problem })?,
     };
-    let brought = shaders.brought_along(Some(draw));
-    let targets = targets(plan, scope, pass).map_err(mismatch)?;
+    let brought = shaders.brought_along(Some(draw), &pass.shader);
     let written: Vec<_> = targets.iter().map(|target| &scope.color()[*target]).collect();
     check_brought(&brought).map_err(mismatch)?;
     check_program(&shader.interface, shaders.draws()).map_err(mismatch)?;
     let sets = shaders.draws().sets();
-    check_needs(gpu, &shader.interface, brought.supplied.iter(), sets, scope.color().len()).map_err(mismatch)?;
+    check_needs(gpu, &shader.interface, &brought, sets, scope.color().len()).map_err(mismatch)?;
     check_supplied(&shader.interface, &brought).map_err(mismatch)?;
     check_outputs(&shader.interface, plan, &written).map_err(mismatch)?;
+    let parts = !plan.variant(pass, Some(scope)).parts.is_empty();
+    check_pushed(&shader.interface, &brought, parts).map_err(mismatch)?;
     check_raster(gpu, &shader.interface, pass).map_err(mismatch)?;
     check_covers(&shader.interface, plan, scope, pass).map_err(mismatch)?;
     let own_vertices = draw.has_own_vertices() && !wanted.is_empty();
-    let (attributes, strides) = if own_vertices {
-        own_attributes(&shader.interface, wanted.len()).map_err(mismatch)?
-    } else {
-        let attributes = brought_attributes(&shader.interface, &brought).map_err(mismatch)?;
-        let strides = if attributes.is_empty() { Vec::new() } else { vec![brought.vertex_stride] };
-        (attributes, strides)
-    };
+    let (attributes, vertex_buffers) = match own_vertices {
+        true => own_attributes(&shader.interface, wanted.len()),
+        false => brought_attributes(&shader.interface, &brought),
+    }
+    .map_err(mismatch)?;
+    check_eyes(plan, scope, &vertex_buffers).map_err(mismatch)?;
     let vertices = if own_vertices { wanted } else { Vec::new() };
     if indices.is_none() {
-        check_reach(plan, draw, &vertices, &strides).map_err(mismatch)?;
+        check_reach(plan, draw, &vertices, &vertex_buffers).map_err(mismatch)?;
     }
     let sets = PassSets::new(gpu, plan, pass, &shader.interface.bindings)?;
     let supplied = SuppliedSets::new(gpu, sets.layout, &shader.interface, &brought, shaders)?;
-    let local = local_read(gpu, scope, pass, &shader, &targets).map_err(mismatch)?;
+    let local = local_reads(gpu, scope, pass, Some(&shader), &targets).map_err(mismatch)?;
+    let formats = ScopeFormats { local, ..scope_formats(plan, scope) };
     let blend = |number: &usize| {
         let blend = pass.blend.get(*number).filter(|_| targets.contains(number))?;
         Some((*blend, pass.write_mask(*number)))
@@ -280,7 +296,7 @@ pub(super) fn prepare_draw(
         vertex: shader.vertex.clone(),
         fragment: shader.fragment.clone(),
         layout: supplied.layout,
-        strides: strides.clone(),
+        vertex_buffers: vertex_buffers.clone(),
         attributes,
         formats: formats.clone(),
         blend: (0..scope.color().len()).map(|number| blend(&number)).collect(),
@@ -288,14 +304,33 @@ pub(super) fn prepare_draw(
         depth: pass.depth,
         stencil: pass.stencil,
         alpha_to_coverage: pass.alpha_to_coverage,
-        local: local.clone(),
         turned,
     };
     let pipeline = Some(PassPipeline::unmade(PipelineDescriptor::Graphics(descriptor.into())));
-    let brought_stride = if own_vertices { 0 } else { strides.first().copied().unwrap_or(0) };
+    let read = if own_vertices { Vec::new() } else { vertex_buffers };
+    let brought_buffers = u32::try_from(brought.vertex_buffers.len()).unwrap_or(u32::MAX);
     let usual_vertices = shader.usual_vertices;
-    let state = PassState { formats: formats.clone(), supplied, vertex_stride: brought_stride, usual_vertices };
-    Ok(PreparedDraw { pipeline, local, state, vertices, ..nothing(sets) })
+    let pushed = shader.interface.pushed.clone();
+    let pushed_bytes = if pushed.is_empty() { 0 } else { brought.pushed_bytes() };
+    let state = PassState {
+        formats: formats.clone(),
+        supplied,
+        vertex_buffers: read,
+        brought_buffers,
+        pushed,
+        pushed_bytes,
+        usual_vertices,
+    };
+    Ok(PreparedDraw { pipeline, state, vertices, ..nothing(sets, formats) })
+}
+
+/// Where instances are both eyes', their numbers aren't those of the elements of a buffer.
+fn check_eyes(plan: &Plan, scope: &RenderScope, buffers: &[VertexBinding]) -> Result<(), String> {
+    let by_instances = matches!(plan.stereo, Stereo::Instanced | Stereo::DoubleWide) && plan.eyes(scope).is_some();
+    if by_instances && buffers.iter().any(|buffer| buffer.rate.is_by_instance()) {
+        return Err("it draws both eyes by instances, and reads vertex attributes by instance".to_owned());
+    }
+    Ok(())
 }
 
 /// The device must allow what raster state asks for, and the shader have what it and blends take.
@@ -348,21 +383,25 @@ fn targets(plan: &Plan, scope: &RenderScope, pass: &plan::Pass) -> Result<Vec<us
     Ok(targets)
 }
 
-/// How the pass sees the scope's colour attachments; `None` if its shader's locations are theirs, and it reads none.
-fn local_read(
+/// How the pass sees the scope's colour attachments; `None` if its shader's locations are theirs, and it reads none. A pass without
+/// shader, for which the program has pipelines, reads an attachment by the attachment's own number.
+fn local_reads(
     gpu: &Gpu,
     scope: &RenderScope,
     pass: &plan::Pass,
-    shader: &CompiledShader,
+    shader: Option<&CompiledShader>,
     targets: &[usize],
-) -> Result<Option<LocalRead>, String> {
+) -> Result<Option<LocalReads>, String> {
     let mut inputs = vec![vk::ATTACHMENT_UNUSED; scope.color().len()];
     for access in &pass.accesses {
         let Some(binding) = access.binding.as_ref().filter(|it| it.kind.is_input_attachment()) else {
             continue;
         };
-        let index = shader.input_attachments.iter().find(|(name, _)| **name == *binding.name).map(|(_, index)| *index);
         let attachment = scope.color().iter().position(|it| it.image == access.image);
+        let index = match shader {
+            Some(shader) => shader.input_attachments.iter().find(|(name, _)| **name == *binding.name).map(|it| it.1),
+            None => attachment.and_then(|number| u32::try_from(number).ok()),
+        };
         let (Some(index), Some(attachment)) = (index, attachment) else {
             return Err(format!("`{}` is no input attachment of a colour attachment of its scope", binding.name));
         };
@@ -382,7 +421,8 @@ fn local_read(
     }
     fill_gaps(&mut locations);
     fill_gaps(&mut inputs);
-    Ok(Some(LocalRead { locations, inputs }))
+    let drawn = (0..scope.color().len()).map(|number| targets.contains(&number)).collect();
+    Ok(Some(LocalReads { locations, inputs, drawn }))
 }
 
 /// Gives numbers that are left over to attachments that the pass doesn't use: SwiftShader takes `VK_ATTACHMENT_UNUSED` for an
@@ -397,9 +437,9 @@ fn fill_gaps(numbers: &mut [u32]) {
 
 /// A draw's vertices must lie within its buffers. The checker has said so of indices. Only the device knows the vertices that
 /// they point to, and it keeps within the buffers.
-fn check_reach(plan: &Plan, draw: Draw, vertices: &[BufferId], strides: &[u32]) -> Result<(), String> {
+fn check_reach(plan: &Plan, draw: Draw, vertices: &[BufferId], read: &[VertexBinding]) -> Result<(), String> {
     let Some([count, _]) = draw.counts() else { return Ok(()) };
-    vertices.iter().zip(strides).try_for_each(|(buffer, stride)| {
+    vertices.iter().zip(read).try_for_each(|(buffer, VertexBinding { stride, .. })| {
         let buffer = &plan.buffers[buffer.0 as usize];
         if u64::from(count) * u64::from(*stride) <= buffer.bytes {
             return Ok(());

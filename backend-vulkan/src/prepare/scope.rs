@@ -7,7 +7,7 @@ use super::frame::Frame;
 use super::pass::{PreparedDraw, prepare_draw};
 use super::variant::view_mask;
 use crate::base::{Error, convert};
-use crate::gpu::{Gpu, LocalRead, c_string};
+use crate::gpu::{Gpu, LocalReads, c_string};
 use crate::memory::ViewShape;
 use crate::pipeline::or_unused;
 use crate::shaders::ShaderLibrary;
@@ -30,7 +30,8 @@ pub(super) fn prepare_scope(
         // A pass's locations and inputs of attachments hold for the rest of the scope: the others set them back.
         let straight: Vec<u32> = (0..).take(scope.color().len()).collect();
         for pass in &mut passes {
-            let back = || LocalRead { locations: straight.clone(), inputs: straight.clone() };
+            let drawn = vec![true; straight.len()];
+            let back = || LocalReads { locations: straight.clone(), inputs: straight.clone(), drawn };
             pass.local.get_or_insert_with(back);
         }
     }

@@ -53,7 +53,9 @@ impl SuppliedSets {
             }
         });
         let sets = sets.collect::<Result<Vec<_>, Error>>()?;
-        let layout = gpu.pipeline_layout([own].into_iter().chain(sets.iter().map(|set| set.layout)).collect())?;
+        let pushed = if shader.pushed.is_empty() { 0 } else { brought.pushed_bytes() };
+        let layouts = [own].into_iter().chain(sets.iter().map(|set| set.layout)).collect();
+        let layout = gpu.pipeline_layout(layouts, pushed)?;
         Ok(SuppliedSets { layout, sets })
     }
 

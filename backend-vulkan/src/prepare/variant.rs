@@ -24,8 +24,8 @@ pub(crate) fn view_mask(plan: &Plan, scope: &RenderScope) -> u32 {
     if plan.stereo == Stereo::Multiview && plan.eyes(scope).is_some() { 0b11 } else { 0 }
 }
 
-/// What the pipelines of a scope must fit.
-pub(crate) fn scope_formats(plan: &Plan, scope: &RenderScope) -> ScopeFormats {
+/// What the pipelines of a scope must fit, apart from how its passes see the attachments.
+pub(super) fn scope_formats(plan: &Plan, scope: &RenderScope) -> ScopeFormats {
     let format = |attachment: &Attachment| convert::format(plan.image(attachment.image).format);
     let or_none = |attachment: Option<&Attachment>| attachment.map_or(vk::Format::UNDEFINED, format);
     ScopeFormats {
@@ -34,5 +34,6 @@ pub(crate) fn scope_formats(plan: &Plan, scope: &RenderScope) -> ScopeFormats {
         stencil: or_none(scope.stencil()),
         samples: convert::samples(scope.samples),
         view_mask: view_mask(plan, scope),
+        local: None,
     }
 }

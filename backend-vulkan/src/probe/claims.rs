@@ -4,7 +4,7 @@ use crate::base::convert;
 use crate::gpu::{Device, Gpu};
 use ash::vk;
 use framewright_graph::device::{FormatSupport, MemoryModel, Profile, Queues, SOME_PLANS_USE};
-use framewright_graph::vulkan::{Format, ResolveMode, Sharing, Usage};
+use framewright_graph::vulkan::{Format, ResolveMode, Sharing, Usage, VertexFormat};
 
 /// The modes in which depth can be resolved, in the order in which the self-test works them out.
 pub(super) const DEPTH_RESOLVE_MODES: [ResolveMode; 4] =
@@ -64,6 +64,7 @@ pub(super) fn claimed_profile(device: &Device) -> Profile {
             .map(str::to_owned)
             .collect(),
         limits: Some(gpu.shader_limits()),
+        vertex_formats: Some(vertex_formats(gpu)),
         depth_resolve: depth_resolve_modes(gpu),
         refuted_depth_resolve: Vec::new(),
         refuted_layered_depth_resolve: Vec::new(),
@@ -74,6 +75,12 @@ pub(super) fn claimed_profile(device: &Device) -> Profile {
         known_needs: Vec::new(),
         unknown: Vec::new(),
     }
+}
+
+/// The formats of which the device reads vertices beside those that every device reads.
+fn vertex_formats(gpu: &Gpu) -> Vec<VertexFormat> {
+    let named = VertexFormat::NAMED.iter().map(|(_, format)| *format);
+    named.filter(|format| !format.is_on_every_device() && gpu.reads_vertices(*format)).collect()
 }
 
 /// The support that the device claims for one format; `None` if there is none.

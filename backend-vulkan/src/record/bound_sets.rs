@@ -12,6 +12,7 @@ pub(super) struct BoundSets<'f> {
     gpu: &'f Gpu,
     point: vk::PipelineBindPoint,
     supplied: &'f SuppliedSets,
+    program: &'f ProgramSets,
     pub(super) held: &'f mut HeldResources,
 }
 
@@ -22,13 +23,15 @@ impl<'f> BoundSets<'f> {
         point: vk::PipelineBindPoint,
         supplied: &'f SuppliedSets,
         held: &'f mut HeldResources,
-        program: &ProgramSets,
+        program: &'f ProgramSets,
     ) -> BoundSets<'f> {
         held.bound.clear();
+        held.vertices.clear();
+        held.pushed.clear();
         let for_all = |number, set: &SuppliedSet| set.program.is_some() && program.of(number).is_some();
         let bound = (1..).zip(&supplied.sets).map(|(number, set)| !set.is_read || for_all(number, set));
         held.bound.extend(bound);
-        BoundSets { gpu, point, supplied, held }
+        BoundSets { gpu, point, supplied, program, held }
     }
 
     /// Binds a group to the set number `set`, from 1 on.
@@ -76,13 +79,13 @@ impl<'f> BoundSets<'f> {
         set: RawSet,
         offsets: &[u32],
     ) -> Result<(), String> {
-        let Some(index) = (number as usize).checked_sub(1).filter(|it| *it < self.supplied.sets.len()) else {
-            return Ok(());
-        };
-        let known = &self.supplied.sets[index];
-        if known.program.is_none() && known.is_read {
+        let index = (number as usize).checked_sub(1);
+        let known = index.and_then(|index| self.supplied.sets.get(index));
+        if known.is_some_and(|known| known.program.is_none() && known.is_read) {
             return Err(format!("set {number} is the draw source's: `bind_group` takes it"));
         }
+        self.program.check(number)?;
+        let (Some(index), Some(_)) = (index, known) else { return Ok(()) };
         bind_program_set(self.gpu, commands, self.point, self.supplied, (number, set, offsets))?;
         self.held.bound[index] = true;
         Ok(())

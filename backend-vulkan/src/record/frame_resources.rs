@@ -14,6 +14,10 @@ pub(crate) struct HeldResources {
     pub(super) sets: FrameResources<DescriptorSet>,
     /// By set from 1 on: whether the pass that is being recorded has all that it reads of it.
     pub(super) bound: Vec<bool>,
+    /// The vertex buffers that are bound for the pass that is being recorded: the number of each, and its bytes from where it is read on.
+    pub(super) vertices: Vec<(u32, u64)>,
+    /// By word of four bytes: whether the push constant is set for the pass that is being recorded.
+    pub(super) pushed: Vec<bool>,
 }
 
 /// Resources in the order in which a frame's commands use them. What a frame uses as the frame before did stays as it is, since

@@ -5,12 +5,14 @@ use super::canvas::Canvas;
 use super::custom_image::{CustomImage, named_buffer};
 use super::frame_resources::HeldResources;
 use crate::base::numbers;
-use crate::gpu::ScopeFormats;
+use crate::gpu::{ScopeFormats, VertexBinding};
+use crate::pipeline::PARTS_STAGES;
 use crate::prepare::{Frame, PassState, PreparedDraw};
 use crate::resources::{BindGroup, Buffer, RawSet};
 use ash::vk;
 use framewright_graph::frame::{EyeForm, ParamValue, Stereo};
 use framewright_graph::plan;
+use framewright_graph::shader::VertexRate;
 use framewright_graph::vulkan::{CullMode, FrontFace, Rotation};
 use std::ops::Range;
 
@@ -34,7 +36,6 @@ pub struct Recorder<'f> {
     has_pipeline: bool,
     plan: &'f plan::Pass,
     frame: &'f Frame<'f>,
-    vertices: Option<u64>,
     indices: Option<u64>,
     culled: u32,
     /// Whether the pass was looked through for bindings that its draws lack, and nothing was misused.
@@ -53,8 +54,7 @@ impl<'f> Recorder<'f> {
     ) -> Recorder<'f> {
         let (pass, has_pipeline, misuse) = (&drawn.state, drawn.pipeline.is_some(), begun.err());
         let sets = BoundSets::new(canvas.gpu, vk::PipelineBindPoint::GRAPHICS, &pass.supplied, kept, frame.sets);
-        let (vertices, indices) = (None, None);
-        Recorder { canvas, sets, pass, has_pipeline, plan, frame, vertices, indices, culled: 0, ready: false, misuse }
+        Recorder { canvas, sets, pass, has_pipeline, plan, frame, indices: None, culled: 0, ready: false, misuse }
     }
 
     /// The pass's name.
@@ -119,7 +119,8 @@ impl<'f> Recorder<'f> {
         self.plan.params.iter().find(|param| *param.name == *name).map(|param| param.value.clone())
     }
 
-    /// What pipelines of the program's own must fit to be bound here. [`crate::Executor::formats`] tells it before the first frame.
+    /// What pipelines of the program's own must fit to be bound here, as the pass sees its scope: in a scope with local reads the colours of
+    /// the scope aren't those of the pass ([`ScopeFormats::local`]). [`crate::Executor::formats`] tells it before the first frame.
     #[must_use]
     pub fn formats(&self) -> &ScopeFormats {
         &self.pass.formats
@@ -174,14 +175,33 @@ impl<'f> Recorder<'f> {
         self.note(bound);
     }
 
-    /// Binds the vertices.
+    /// Binds the first vertex buffer, from its beginning on.
     pub fn bind_vertex_buffer(&mut self, buffer: &Buffer) {
+        self.bind_vertex_buffer_at(0, buffer, 0);
+    }
+
+    /// Binds the vertex buffer `number` of the draw interface, from an offset in bytes on, which is a multiple of 4.
+    pub fn bind_vertex_buffer_at(&mut self, number: u32, buffer: &Buffer, offset: u64) {
         if !self.may_bind(buffer, vk::BufferUsageFlags::VERTEX_BUFFER) {
             return self.misused(|| "the buffer was not made for vertices, or not by this device".to_owned());
         }
-        self.vertices = Some(buffer.bytes());
-        // SAFETY: the command buffer is being recorded, and the buffer was made for vertices.
-        unsafe { self.canvas.gpu.raw.cmd_bind_vertex_buffers(self.canvas.commands, 0, &[buffer.0.raw], &[0]) };
+        let Some(bytes) = buffer.bytes().checked_sub(offset).filter(|_| offset.is_multiple_of(4)) else {
+            let held = buffer.bytes();
+            return self.misused(|| {
+                format!("vertices from byte {offset} of a buffer on, which holds {held}; offsets are multiples of 4")
+            });
+        };
+        if number >= self.pass.brought_buffers.max(1) {
+            return self.misused(|| format!("the draw interface has no vertex buffer {number}"));
+        }
+        let bound = &mut self.sets.held.vertices;
+        bound.retain(|(known, _)| *known != number);
+        bound.push((number, bytes));
+        // SAFETY: the command buffer is being recorded, the buffer was made for vertices, and the device has such a binding: what the draw
+        // interface has was checked, and each device has the first.
+        unsafe {
+            self.canvas.gpu.raw.cmd_bind_vertex_buffers(self.canvas.commands, number, &[buffer.0.raw], &[offset])
+        };
     }
 
     /// Binds the indices.
@@ -196,6 +216,30 @@ impl<'f> Recorder<'f> {
         self.indices = Some(buffer.bytes() / bytes);
         // SAFETY: the command buffer is being recorded, and the buffer was made for indices.
         unsafe { self.canvas.gpu.raw.cmd_bind_index_buffer(self.canvas.commands, buffer.0.raw, 0, ty) };
+    }
+
+    /// Sets push constants from byte `offset` on, for the draws of this pass from now on: as the draw interface tells them. Both are multiples
+    /// of 4. Where no stage of the pass reads any they are left out.
+    pub fn push_constants(&mut self, offset: u32, bytes: &[u8]) {
+        let most = self.pass.pushed_bytes;
+        let whole = offset.is_multiple_of(4) && bytes.len().is_multiple_of(4);
+        let end = u64::from(offset) + bytes.len() as u64;
+        if most == 0 || bytes.is_empty() {
+            return;
+        }
+        if !whole || end > u64::from(most) {
+            let length = bytes.len();
+            return self.misused(|| {
+                format!("{length} bytes of push constants from byte {offset} on: there are {most}, set by four")
+            });
+        }
+        let words = (offset / 4) as usize..(offset / 4) as usize + bytes.len() / 4;
+        let pushed = &mut self.sets.held.pushed;
+        pushed.resize((most / 4) as usize, false);
+        pushed[words].fill(true);
+        let layout = self.pass.supplied.layout;
+        // SAFETY: the command buffer is being recorded, and the layout has so many bytes, which these stages see.
+        unsafe { self.canvas.gpu.raw.cmd_push_constants(self.canvas.commands, layout, PARTS_STAGES, offset, bytes) };
     }
 
     /// Says which faces are left out from now on.
@@ -239,14 +283,9 @@ impl<'f> Recorder<'f> {
         self.note(set);
     }
 
-    /// Draws triangles of consecutive vertices. `instances` begins at what shaders see as the first `gl_InstanceIndex`.
+    /// Draws consecutive vertices. `instances` begins at what shaders see as the first `gl_InstanceIndex`.
     pub fn draw(&mut self, vertices: Range<u32>, instances: Range<u32>) {
-        let stride = u64::from(self.pass.vertex_stride);
-        let reach = u64::from(vertices.end) * stride;
-        if stride > 0 && self.vertices.is_some_and(|bytes| bytes < reach) {
-            return self.misused(|| format!("vertices {} lie beyond the vertex buffer", numbers(&vertices)));
-        }
-        if self.may_draw() {
+        if self.may_draw(Some(&vertices), &instances) {
             let count = vertices.end.saturating_sub(vertices.start);
             let drawn = self.canvas.for_eyes(instances, |device, commands, first, instances| {
                 // SAFETY: everything that the pipeline reads is bound and large enough.
@@ -256,12 +295,12 @@ impl<'f> Recorder<'f> {
         }
     }
 
-    /// Draws triangles of indexed vertices; `base_vertex` is added to each index.
+    /// Draws indexed vertices; `base_vertex` is added to each index.
     pub fn draw_indexed(&mut self, indices: Range<u32>, base_vertex: i32, instances: Range<u32>) {
         if self.indices.is_none_or(|held| held < u64::from(indices.end)) {
             return self.misused_indices(&indices);
         }
-        if self.may_draw() {
+        if self.may_draw(None, &instances) {
             let count = indices.end.saturating_sub(indices.start);
             let drawn = self.canvas.for_eyes(instances, |device, commands, first, instances| {
                 // SAFETY: everything that the pipeline reads is bound, the indices exist, and with robustBufferAccess an
@@ -290,13 +329,50 @@ impl<'f> Recorder<'f> {
         may
     }
 
-    /// Whether everything that the pipeline reads is bound. What is bound once is bound for the rest of the pass.
-    fn may_draw(&mut self) -> bool {
+    /// Whether everything that the pipeline reads is bound, and long enough for a draw of these vertices (`None`: indices choose them) and
+    /// instances. What is bound once is bound for the rest of the pass.
+    fn may_draw(&mut self, vertices: Option<&Range<u32>>, instances: &Range<u32>) -> bool {
         if !self.ready {
             self.look_for_missing();
             self.ready = self.misuse.is_none();
         }
+        if self.ready
+            && let Some(misuse) = self.beyond(vertices, instances)
+        {
+            self.misused(|| misuse);
+        }
         self.ready
+    }
+
+    /// What a draw would read beyond its vertex buffers, in words.
+    fn beyond(&self, vertices: Option<&Range<u32>>, instances: &Range<u32>) -> Option<String> {
+        if instances.is_empty() {
+            return None;
+        }
+        self.pass.vertex_buffers.iter().find_map(|VertexBinding { binding, stride, rate }| {
+            let (elements, what, range) = match (rate, vertices) {
+                (VertexRate::Vertex, None) => return None,
+                (VertexRate::Vertex, Some(vertices)) => (vertices.end, "vertices", vertices),
+                (VertexRate::Instance { divisor }, _) if *divisor > 1 && instances.start > 0 => {
+                    return Some(format!(
+                        "instances {} of which several share an element of vertex buffer {binding}: those begin at 0",
+                        numbers(instances)
+                    ));
+                }
+                (VertexRate::Instance { divisor }, _) => (instances.end.div_ceil(*divisor), "instances", instances),
+            };
+            let reach = u64::from(elements) * u64::from(*stride);
+            let held = self.bound_bytes(*binding)?;
+            (!range.is_empty() && held < reach).then(|| match binding {
+                0 => format!("{what} {} lie beyond the vertex buffer", numbers(range)),
+                _ => format!("{what} {} lie beyond vertex buffer {binding}", numbers(range)),
+            })
+        })
+    }
+
+    /// The bytes of a vertex buffer that is bound, from where it is read on.
+    fn bound_bytes(&self, number: u32) -> Option<u64> {
+        self.sets.held.vertices.iter().find(|(known, _)| *known == number).map(|(_, bytes)| *bytes)
     }
 
     /// A draw is misuse as long as something is missing.
@@ -308,8 +384,16 @@ impl<'f> Recorder<'f> {
             let shader = &self.plan.shader;
             self.misused(|| format!("a draw without pipeline: there is no shader `{shader}`"));
         }
-        if self.pass.vertex_stride > 0 && self.vertices.is_none() {
-            self.misused(|| "a draw without vertex buffer".to_owned());
+        let unbound = self.pass.vertex_buffers.iter().find(|buffer| self.bound_bytes(buffer.binding).is_none());
+        let is_set = |word: u32| self.sets.held.pushed.get(word as usize).is_some_and(|set| *set);
+        let unset = self.pass.pushed.iter().find(|it| !(it.offset / 4..it.end.div_ceil(4)).all(is_set));
+        if let Some(name) = unset.map(|block| block.name.clone()) {
+            self.misused(|| format!("a draw without all push constants of `{name}`"));
+        }
+        match unbound.map(|buffer| buffer.binding) {
+            None => {}
+            Some(0) => self.misused(|| "a draw without vertex buffer".to_owned()),
+            Some(number) => self.misused(|| format!("a draw without vertex buffer {number}")),
         }
     }
 

@@ -7,7 +7,7 @@ use super::recorded_frame::Counts;
 use super::recorder::Recorder;
 use super::step::Recording;
 use crate::base::Error;
-use crate::gpu::{Gpu, LocalRead};
+use crate::gpu::{Gpu, LocalReads};
 use crate::prepare::{CommandList, DrawCommand, DrawCounts, DrawnVertices, OwnDraw, ScopeCommand};
 use ash::vk;
 
@@ -130,7 +130,7 @@ pub(super) fn local_barrier(gpu: &Gpu, commands: vk::CommandBuffer) {
 }
 
 /// Sets what locations and input attachments the scope's colour attachments are to the pass.
-pub(super) fn see_attachments(gpu: &Gpu, commands: vk::CommandBuffer, local: &LocalRead) {
+pub(super) fn see_attachments(gpu: &Gpu, commands: vk::CommandBuffer, local: &LocalReads) {
     let Some(extension) = &gpu.local_read else { return };
     let locations = vk::RenderingAttachmentLocationInfoKHR::default().color_attachment_locations(&local.locations);
     let inputs = vk::RenderingInputAttachmentIndexInfoKHR::default().color_attachment_input_indices(&local.inputs);

@@ -23,33 +23,63 @@ impl RawSet {
 }
 
 /// The sets that an executor binds for all passes that read them.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct ProgramSets(Vec<(u32, RawSet, Vec<u32>)>);
+#[derive(Debug, Clone)]
+pub(crate) struct ProgramSets {
+    /// The numbers of the sets that the program has told of.
+    told: Vec<u32>,
+    bound: Vec<(u32, RawSet, Vec<u32>)>,
+}
 
 impl ProgramSets {
     /// No sets.
-    pub(crate) const NONE: &'static ProgramSets = &ProgramSets(Vec::new());
+    pub(crate) const NONE: &'static ProgramSets = &ProgramSets { told: Vec::new(), bound: Vec::new() };
+
+    /// None is bound yet of those that the program has told of.
+    pub(crate) fn new(told: &[ProgramSet]) -> ProgramSets {
+        ProgramSets { told: told.iter().map(|set| set.set).collect(), bound: Vec::new() }
+    }
+
+    /// Whether the program has told of a set of this number.
+    ///
+    /// # Errors
+    /// That it hasn't, in words.
+    pub(crate) fn check(&self, number: u32) -> Result<(), String> {
+        match self.told.contains(&number) {
+            true => Ok(()),
+            false => Err(format!(
+                "set {number} is bound, and the program has told of none of that number (`DrawInterfaces::with_set`)"
+            )),
+        }
+    }
+
+    /// Whether all that are bound are sets that the program has told of.
+    ///
+    /// # Errors
+    /// Those of [`ProgramSets::check`].
+    pub(crate) fn check_all(&self) -> Result<(), String> {
+        self.bound.iter().try_for_each(|(number, ..)| self.check(*number))
+    }
 
     /// Has a set take the place of the one of its number.
     pub(crate) fn bind(&mut self, number: u32, set: RawSet, offsets: &[u32]) {
         self.unbind(number);
-        self.0.push((number, set, offsets.to_vec()));
+        self.bound.push((number, set, offsets.to_vec()));
     }
 
     /// Lets go of a set.
     pub(crate) fn unbind(&mut self, number: u32) {
-        self.0.retain(|(known, ..)| *known != number);
+        self.bound.retain(|(known, ..)| *known != number);
     }
 
     /// Takes over sets of numbers that it has none of.
     pub(crate) fn take_over(&mut self, before: &ProgramSets) {
-        let new = before.0.iter().filter(|(number, ..)| self.of(*number).is_none()).cloned().collect::<Vec<_>>();
-        self.0.extend(new);
+        let new = before.bound.iter().filter(|(number, ..)| self.of(*number).is_none()).cloned().collect::<Vec<_>>();
+        self.bound.extend(new);
     }
 
     /// The set of a number, with its dynamic offsets.
     pub(crate) fn of(&self, number: u32) -> Option<(RawSet, &[u32])> {
-        self.0.iter().find(|(known, ..)| *known == number).map(|(_, set, offsets)| (*set, &offsets[..]))
+        self.bound.iter().find(|(known, ..)| *known == number).map(|(_, set, offsets)| (*set, &offsets[..]))
     }
 }
 

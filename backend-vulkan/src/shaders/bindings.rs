@@ -1,11 +1,14 @@
 //! The resources that a shader stage uses, read off its SPIR-V.
 
 use super::module::{IndexedModule, id, number, storage_class};
+use super::program_supply::ProgramSupply;
 use super::sampler_pairs::SamplerPairs;
 use super::text::RefusedStage;
 use crate::base::ShaderStage;
 use crate::base::named;
-use framewright_graph::shader::{BINDINGS, Binding, BindingKind, Block, Member, PASS_SET, UnbindableResource};
+use framewright_graph::shader::{
+    BINDINGS, Binding, BindingKind, Block, Member, PASS_SET, PushedBlock, UnbindableResource,
+};
 use framewright_graph::vulkan::{Component, Dimension, Format, ImageShape};
 use rspirv::dr::{Instruction, Operand};
 use rspirv::spirv::{Decoration, Dim, ImageFormat, Op, StorageClass};
@@ -22,7 +25,7 @@ pub(super) fn bindings(
     stage: ShaderStage,
     used: &HashSet<u32>,
     in_part: bool,
-    program_sets: &[u32],
+    program: &ProgramSupply,
 ) -> Result<Vec<Binding>, RefusedStage> {
     let stage = stage.facts();
     let pairs = SamplerPairs::of(module);
@@ -30,7 +33,8 @@ pub(super) fn bindings(
     for (variable, instruction) in module.variables() {
         if storage_class(instruction) == Some(StorageClass::PushConstant) && used.contains(&variable) {
             let ty = module.pointee(instruction).and_then(|ty| ty.result_id);
-            if in_part && ty.is_some_and(|ty| module.name(ty) == PARTS) {
+            let own = in_part && ty.is_some_and(|ty| module.name(ty) == PARTS);
+            if own || program.pushes && stage.draws {
                 continue;
             }
             let what = "push constants: parameters come in the uniform block `params`".to_owned();
@@ -39,7 +43,7 @@ pub(super) fn bindings(
         let set = module.decoration_number(variable, Decoration::DescriptorSet);
         let binding = module.decoration_number(variable, Decoration::Binding);
         let (Some(set), Some(binding)) = (set, binding) else { continue };
-        if set != PASS_SET && !used.contains(&variable) || program_sets.contains(&set) {
+        if set != PASS_SET && !used.contains(&variable) || program.sets.contains(&set) {
             continue;
         }
         let Some(ty) = module.pointee(instruction) else { continue };
@@ -81,6 +85,22 @@ pub(super) fn bindings(
         return Err(RefusedStage::named(other, what));
     }
     Ok(bindings)
+}
+
+/// The blocks of push constants that a stage reads, without that of the parts of images.
+pub(super) fn pushed(module: &IndexedModule<'_>, stage: ShaderStage, used: &HashSet<u32>) -> Vec<PushedBlock> {
+    let read = |(variable, it): &(u32, &Instruction)| {
+        storage_class(it) == Some(StorageClass::PushConstant) && used.contains(variable)
+    };
+    let read_block = |(variable, it): (u32, &Instruction)| {
+        let ty = module.pointee(it)?;
+        let id = ty.result_id.filter(|ty| module.name(*ty) != PARTS)?;
+        let members = block(module, ty).members;
+        let offset = members.iter().map(|member| member.offset).min()?;
+        let name = name_of(module, variable, it).to_owned();
+        Some(PushedBlock { name, stages: stage.facts().pipeline, offset, end: module.block_end(id) })
+    };
+    module.variables().filter(read).filter_map(read_block).collect()
 }
 
 /// That a stage writes what it may not.

@@ -12,6 +12,7 @@ use super::files::{ShaderFiles, SourceFile};
 use super::layers;
 use super::macros::{Macros, PARTS, both_eyes, macros};
 use super::needs::Needed;
+use super::program_supply::ProgramSupply;
 use super::reflect::reflect;
 use super::registers;
 use super::set_layouts::SetLayouts;
@@ -27,8 +28,8 @@ use framewright_graph::base::{FilePath, Root};
 use framewright_graph::device::{Need, NeedKind};
 use framewright_graph::frame::{Draw, EyeForm};
 use framewright_graph::shader::{
-    Binding, ConstantValue, DrawInterface, DrawInterfaces, DrawKind, PASS_SET, ProgramSet, ShaderInterface,
-    ShaderInterfaces, ShaderName, ShaderProblem, StageName, UnbindableResource, Variant,
+    Binding, ConstantValue, DrawInterface, DrawInterfaces, PASS_SET, ProgramSet, ShaderInterface, ShaderInterfaces,
+    ShaderName, ShaderProblem, StageName, UnbindableResource, Variant,
 };
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -74,13 +75,12 @@ pub struct CompiledCompute {
 /// macro `DEPTH_ONLY`: what is left decides which fragments stay. Where its alpha says how many samples are covered, it is
 /// compiled with the macro `ALPHA_TO_COVERAGE`. `NAME_st` in a stage that declares the sampler `NAME` stands
 /// for the part in use of the image that the pass gives as `NAME`. A name that the stage itself declares is its own, and no
-/// macro. What was once read or compiled is kept for the library's
-/// lifetime: changes on disk need a new library.
+/// macro. What was once read or compiled is kept for the library's lifetime: changes on disk need a new library.
 pub struct ShaderLibrary {
     sources: StageSources,
     draws: DrawInterfaces,
-    /// The numbers of the sets that the program binds itself.
-    program_sets: Vec<u32>,
+    /// What the program supplies to all shaders.
+    program: ProgramSupply,
     /// Their layouts, as far as the program has made them.
     set_layouts: SetLayouts,
     compilers: Compilers,
@@ -108,9 +108,9 @@ impl ShaderLibrary {
     ) -> ShaderLibrary {
         let draws = draws.into();
         let sources = StageSources::new(ShaderFiles { roots, shipped, modules: Vec::new() });
-        let program_sets = draws.sets().iter().map(|set| set.set).collect();
+        let program = ProgramSupply::of(&draws);
         let (set_layouts, compilers) = (SetLayouts::default(), Compilers::new(None, None));
-        ShaderLibrary { sources, draws, program_sets, set_layouts, compilers, stages: HashMap::new() }
+        ShaderLibrary { sources, draws, program, set_layouts, compilers, stages: HashMap::new() }
     }
 
     /// Has shaders compiled in a helper process, which bounds what they can take, and keeps them in its cache. Without a helper
@@ -314,7 +314,7 @@ impl ShaderLibrary {
         let StageSource { found, .. } = source;
         let (name, stage, macros, both, in_layers, constants) = key;
         let stage = *stage;
-        let (compilers, files, program_sets) = (&mut self.compilers, &self.sources.files, &self.program_sets);
+        let (compilers, files, program) = (&mut self.compilers, &self.sources.files, &self.program);
         let unsupported = |refused: RefusedStage| ShaderProblem::Unsupported { what: refused.placed(files, found) };
         if let StageName::File { file, entry } = name {
             let wanted = FileStage { file, entry: entry.as_deref(), stage, macros, constants };
@@ -341,7 +341,7 @@ impl ShaderLibrary {
             let refused = both.and_then(|both| {
                 let text = both.around_without_location(&found.text, stage);
                 let compiled = compilers.compile(&CompileJob { text, ..job.clone() }, found, files).ok()?;
-                reflect(stage, &compiled.spirv, parts, true, program_sets).err()
+                reflect(stage, &compiled.spirv, parts, true, program).err()
             });
             refused.map_or(problem, unsupported)
         })?;
@@ -367,7 +367,7 @@ impl ShaderLibrary {
         if let (true, Verdict::Invalid(finding)) = (code.is_foreign(), &verdict) {
             return Err(ShaderProblem::Unsupported { what: invalid(finding, files, found) });
         }
-        let reflected = reflect(stage, &spirv, tells_parts(macros), both.is_some(), &self.program_sets);
+        let reflected = reflect(stage, &spirv, tells_parts(macros), both.is_some(), &self.program);
         let mut reflected = reflected.map_err(unsupported)?;
         // A resource that no pass can give is refused later, in better words.
         let is_refused = |binding: &Binding| binding.kind.unbindable().is_some();
@@ -445,8 +445,8 @@ impl ShaderInterfaces for ShaderLibrary {
         self.compute(name, variant).map(|shader| shader.interface)
     }
 
-    fn brought_along(&self, draw: Option<Draw>) -> DrawInterface {
-        draw.map_or_else(|| self.draws.of_kind(DrawKind::Compute), |draw| self.draws.of(draw))
+    fn brought_along(&self, draw: Option<Draw>, name: &str) -> DrawInterface {
+        self.draws.of_pass(draw, name)
     }
 
     fn program_sets(&self) -> Vec<ProgramSet> {

@@ -36,6 +36,7 @@ mod needs;
 mod place_names;
 mod precompiled_shaders;
 mod program_resources;
+mod program_supply;
 mod push_constants;
 mod reflect;
 mod registers;

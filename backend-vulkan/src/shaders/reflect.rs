@@ -1,6 +1,6 @@
 //! Reflection of one shader stage: the interface that its SPIR-V tells.
 
-use super::bindings::{bindings, component_of};
+use super::bindings::{bindings, component_of, pushed};
 use super::capabilities::check_capabilities;
 use super::constants;
 use super::extensions::check_extensions;
@@ -8,6 +8,7 @@ use super::eyes::{HANDED_ON, LOCATION};
 use super::module::{IndexedModule, id, number, storage_class};
 use super::needs::{Needed, needs};
 use super::program_resources::program_resources;
+use super::program_supply::ProgramSupply;
 use super::rotation;
 use super::text::RefusedStage;
 use super::varyings::{Varying, varyings, vertex_inputs, writes_point_size};
@@ -44,7 +45,7 @@ const OUTPUTS: u32 = 256;
 const OWN_BYTES: u64 = 64 << 10;
 
 /// Reads the interface of `stage` off `spirv`. `in_part`: it is told which parts of images are in use; `both_eyes`: it was made to
-/// draw for both eyes at once, for a device that can; `program_sets`: the numbers of sets that the program binds itself.
+/// draw for both eyes at once, for a device that can; `program`: what the program supplies.
 ///
 /// # Errors
 /// In words: what it uses that can't be bound.
@@ -53,7 +54,7 @@ pub(super) fn reflect(
     spirv: &[u32],
     in_part: bool,
     both_eyes: bool,
-    program_sets: &[u32],
+    program: &ProgramSupply,
 ) -> Result<StageInterface, RefusedStage> {
     let module = rspirv::dr::load_words(spirv).map_err(|error| format!("SPIR-V that can't be read: {error}"))?;
     let module = IndexedModule::new(&module);
@@ -71,8 +72,8 @@ pub(super) fn reflect(
     let (most_in, most_out) = if fragment { (LOCATION, u32::MAX) } else { (ATTRIBUTES, LOCATION) };
     check_locations(&module, StorageClass::Input, most_in)?;
     check_locations(&module, StorageClass::Output, most_out)?;
-    let bindings = bindings(&module, stage, &used, in_part, program_sets)?;
-    let program = program_resources(&module, stage, &used, program_sets)?;
+    let bindings = bindings(&module, stage, &used, in_part, program)?;
+    let program = program_resources(&module, stage, &used, &program.sets)?;
     let workgroup_size = stage.facts().has_workgroups.then(|| workgroup_size(&module));
     if workgroup_size.is_some_and(|size| size.contains(&0)) {
         let words = &["local_size_", "numthreads", "workgroup_size"];
@@ -85,6 +86,7 @@ pub(super) fn reflect(
     let interface = ShaderInterface {
         bindings,
         program,
+        pushed: pushed(&module, stage, &used),
         vertex_inputs: if vertex { vertex_inputs(&inputs)? } else { Vec::new() },
         outputs: if fragment { fragment_outputs(&module)? } else { Vec::new() },
         second_source: fragment && has_second_source(&module),

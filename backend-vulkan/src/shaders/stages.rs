@@ -92,6 +92,7 @@ pub(super) fn join(vertex: &CompiledStage, fragment: &CompiledStage) -> Result<S
             None => joined.program.push(resource.clone()),
         }
     }
+    joined.pushed.extend(vertex.reflected.interface.pushed.iter().cloned());
     joined.unturned.extend(
         vertex.reflected.interface.unturned.iter().filter(|it| !fragment.reflected.interface.unturned.contains(it)),
     );

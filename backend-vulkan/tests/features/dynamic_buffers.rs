@@ -3,7 +3,7 @@
 use crate::frames::{Small, Uses, draw, on_each_driver, planned, to_bytes, to_words};
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{Draw, DrawList};
-use framewright_graph::shader::{Attribute, DrawInterface, SuppliedKind, SuppliedResource};
+use framewright_graph::shader::{Attribute, DrawInterface, SuppliedKind, SuppliedResource, VertexBuffer};
 use framewright_graph::vulkan::{Format, Subresources};
 use framewright_vulkan::{
     BindGroup, BufferUsage, Device, DrawSource, DynamicBuffer, Error, Executor, ExecutorOptions, Recorder, Resource,
@@ -37,13 +37,14 @@ fn interface(draw: Draw) -> DrawInterface {
         return DrawInterface::default();
     }
     DrawInterface {
-        vertex_stride: 8,
+        vertex_buffers: vec![VertexBuffer::of_vertices(8)],
         attributes: vec![Attribute::new("place", 2, 0)],
         supplied: vec![
             SuppliedResource::new(1, 0, "camera", SuppliedKind::UniformBlock),
             SuppliedResource::new(1, 1, "objects", SuppliedKind::StorageBlock),
             SuppliedResource::new(1, 2, "fixed_number", SuppliedKind::UniformBlock),
         ],
+        ..DrawInterface::default()
     }
 }
 

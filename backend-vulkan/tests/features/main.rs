@@ -17,6 +17,7 @@ mod debugging;
 mod declared_uses;
 mod depth;
 mod dynamic_buffers;
+mod engine_vertices;
 mod formats;
 mod geometry;
 mod growth;

@@ -45,6 +45,19 @@ const SHADERS: &[(&str, &str)] = &[
         void main() { color = texelFetch(seen, ivec2(gl_FragCoord.xy), 0); }",
     ),
     (
+        "other.frag",
+        "#version 460
+        #ifdef LOCAL_READ_source
+        layout(input_attachment_index = 0, set = 0, binding = 0) uniform subpassInput source;
+        #define HERE subpassLoad(source)
+        #else
+        layout(set = 0, binding = 0) uniform sampler2D source;
+        #define HERE texelFetch(source, ivec2(gl_FragCoord.xy), 0)
+        #endif
+        layout(location = 0) out vec4 color;
+        void main() { color = vec4(1.0 - HERE.rgb, 1.0); }",
+    ),
+    (
         "white.frag",
         "#version 460
         layout(location = 0) out vec4 color;
@@ -94,11 +107,15 @@ impl Engine<'_> {
             .depth_test_enable(true)
             .depth_write_enable(true)
             .depth_compare_op(vk::CompareOp::GREATER);
-        let blends = vec![
-            vk::PipelineColorBlendAttachmentState::default()
-                .color_write_mask(vk::ColorComponentFlags::RGBA);
-            formats.color.len()
-        ];
+        let local = formats.local.as_ref();
+        // Of colours of the scope that aren't those of the pass nothing is written.
+        let blends: Vec<_> = (0..formats.color.len())
+            .map(|number| match local.is_none_or(|local| local.drawn[number]) {
+                true => vk::ColorComponentFlags::RGBA,
+                false => vk::ColorComponentFlags::empty(),
+            })
+            .map(|written| vk::PipelineColorBlendAttachmentState::default().color_write_mask(written))
+            .collect();
         let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&blends);
         let dynamic = [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
         let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic);
@@ -109,7 +126,13 @@ impl Engine<'_> {
                 .color_attachment_formats(&formats.color)
                 .depth_attachment_format(formats.depth)
                 .stencil_attachment_format(formats.stencil);
-            let info = vk::GraphicsPipelineCreateInfo::default()
+            let (mut locations, mut inputs) = (
+                vk::RenderingAttachmentLocationInfoKHR::default()
+                    .color_attachment_locations(local.map_or(&[], |local| &local.locations)),
+                vk::RenderingInputAttachmentIndexInfoKHR::default()
+                    .color_attachment_input_indices(local.map_or(&[], |local| &local.inputs)),
+            );
+            let mut info = vk::GraphicsPipelineCreateInfo::default()
                 .stages(&stages)
                 .vertex_input_state(&input)
                 .input_assembly_state(&assembly)
@@ -121,6 +144,9 @@ impl Engine<'_> {
                 .dynamic_state(&dynamic)
                 .layout(self.layout)
                 .push_next(&mut rendering);
+            if local.is_some() {
+                info = info.push_next(&mut locations).push_next(&mut inputs);
+            }
             // SAFETY: all that `info` points to outlives the call.
             let made = unsafe { self.device.raw().create_graphics_pipelines(vk::PipelineCache::null(), &[info], None) };
             made.expect("a pipeline")[0]
@@ -248,6 +274,45 @@ fn several_materials_are_drawn_in_one_pass_by_pipelines_that_were_made_before() 
         let (red, green) = ([255, 0, 0, 255], [0, 255, 0, 255]);
         assert_eq!(flat.as_chunks().0, [[green, red], [green, red]].repeat(2).concat(), "what came last is seen");
         assert_eq!(deep.as_chunks().0, [red; 8], "what is nearest is seen");
+        drop(executor);
+    });
+}
+
+/// A scope with local reads has colours that aren't those of each pass (DO-5): pipelines of the program's own draw into theirs alone.
+#[test]
+fn in_a_scope_with_local_reads_pipelines_of_the_programs_own_draw_into_their_colours_alone() {
+    let whole = Subresources::WHOLE;
+    let mut small = Small::default();
+    let [a, b, c] = ["a", "b", "c"].map(|name| small.image(name, Format::R8G8B8A8_UNORM, [4, 2]));
+    small.pass(draw("white", Draw::FullScreen).draws(a, whole, None));
+    let mut other = draw("other", Draw::FullScreen).samples("source", a, whole).draws(b, whole, None);
+    other.sampled[0].own_pixel = true;
+    small.pass(other);
+    small.pass(draw("own", Draw::Custom).draws(c, whole, Some([0.0; 4])));
+    [a, b, c].into_iter().for_each(|image| small.image_output(image));
+    on_each_driver(|device| {
+        let plan = planned(device, &small.frame, &Options::default());
+        let mut shaders = ShaderLibrary::new(Vec::new(), SHADERS, |_| DrawInterface::default());
+        let mut executor =
+            Executor::new(device, &plan, &mut shaders, &ExecutorOptions::default()).expect("an executor");
+        let mut engine = Engine::new(device);
+        let formats = executor.formats("own").expect("it is in a scope");
+        let scopes = plan.steps.iter().filter_map(|step| step.work.scope());
+        let together = scopes.clone().any(|scope| scope.passes.len() == 3);
+        assert_eq!(formats.local.is_some(), together, "{}", plan.tree());
+        assert_eq!(together, device.profile().local_read, "{}", plan.tree());
+        if let Some(local) = &formats.local {
+            assert_eq!((formats.color.len(), &local.drawn[..]), (3, &[false, false, true][..]));
+            assert_eq!(local.locations[2], 0, "the pass's first output is the scope's third colour");
+        }
+        let made = engine.pipelines(&formats);
+        engine.pipelines.insert(formats, made);
+        executor.frame(&mut engine).expect("a frame");
+        let pictures = [0, 1, 2].map(|output| executor.read(output).expect("a picture").bytes);
+        let (red, green) = ([255, 0, 0, 255], [0, 255, 0, 255]);
+        assert_eq!(pictures[0].as_chunks().0, [[255; 4]; 8]);
+        assert_eq!(pictures[1].as_chunks().0, [[0, 0, 0, 255]; 8]);
+        assert_eq!(pictures[2].as_chunks().0, [[green, red], [green, red]].repeat(2).concat());
         drop(executor);
     });
 }

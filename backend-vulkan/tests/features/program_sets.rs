@@ -395,12 +395,17 @@ fn a_set_that_is_not_bound_or_does_not_fit_is_an_error_of_the_frame() {
         assert!(odd.starts_with("the dynamic offset 1 of set 2 is no multiple of "), "{odd}");
         let of_source = Source { number: 1, ..Source::of(Some(set), &[&[0]]) };
         assert_eq!(said("both", OBJECTS, None, of_source), "set 1 is the draw source's: `bind_group` takes it");
-        // Numbers that no shader reads are left out.
+        // A number that the program has told no set of is told, wherever it is bound.
         let far = Source { number: 9, ..Source::of(Some(set), &[&[0]]) };
         let mut executor = executor(device, &frame("shown", OBJECTS), SetLayouts::default()).expect("an executor");
         executor.bind_set(7, set, &[1, 2, 3]);
         executor.bind_set(SET, set, &[0]);
-        executor.frame(&mut { far }).expect("a frame");
+        let stray = executor.frame(&mut nothing()).expect_err("it is refused").to_string();
+        assert!(stray.contains("set 7 is bound, and the program has told of none of that number"), "{stray}");
+        executor.unbind_set(7);
+        let stray = executor.frame(&mut { far }).expect_err("it is refused").to_string();
+        assert!(stray.contains("set 9 is bound, and the program has told of none of that number"), "{stray}");
+        executor.frame(&mut nothing()).expect("a frame");
         executor.unbind_set(SET);
         let gone = executor.frame(&mut nothing()).expect_err("it is refused").to_string();
         assert!(gone.ends_with(unbound), "{gone}");

@@ -3,7 +3,9 @@
 use crate::frames::{Small, Uses, dispatch, draw, indexing, lacks, on_each_driver, placeless, planned, texels};
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{Draw, DrawList, Frame, Groups};
-use framewright_graph::shader::{Attribute, DrawInterface, DrawInterfaces, DrawKind, SuppliedKind, SuppliedResource};
+use framewright_graph::shader::{
+    Attribute, DrawInterface, DrawInterfaces, DrawKind, SuppliedKind, SuppliedResource, VertexBuffer,
+};
 use framewright_graph::vulkan::{Format, Subresources};
 use framewright_vulkan::{
     BindGroup, BufferUsage, Device, DispatchRecorder, DrawSource, Error, Executor, ExecutorOptions, Recorder, Resource,
@@ -107,7 +109,12 @@ fn textures(count: u32) -> SuppliedResource {
 }
 
 fn interface(count: u32) -> DrawInterface {
-    DrawInterface { vertex_stride: 8, attributes: vec![Attribute::new("place", 2, 0)], supplied: vec![textures(count)] }
+    DrawInterface {
+        vertex_buffers: vec![VertexBuffer::of_vertices(8)],
+        attributes: vec![Attribute::new("place", 2, 0)],
+        supplied: vec![textures(count)],
+        ..DrawInterface::default()
+    }
 }
 
 fn interfaces(count: u32) -> DrawInterfaces {

@@ -4,7 +4,7 @@ use crate::testing::plans::{EXTENT, RESOLVED, add_up, resolve_then_sample};
 use crate::testing::{self, Nothing, OVER_ALL, WHITE};
 use framewright_graph::frame::{Draw, DrawList};
 use framewright_graph::plan::{ImageBarrier, Plan, Role, Work};
-use framewright_graph::shader::{Attribute, DrawInterface, SuppliedKind, SuppliedResource};
+use framewright_graph::shader::{Attribute, DrawInterface, SuppliedKind, SuppliedResource, VertexBuffer};
 use framewright_graph::vulkan::{Accesses, LoadOp, Stages};
 use framewright_vulkan::{
     BufferUsage, Device, DrawSource, Error, Executor, ExecutorOptions, IndexType, Recorder, Resource, ShaderLibrary,
@@ -53,9 +53,10 @@ const SHADERS: &[(&str, &str)] = &[
 fn interface(draw: Draw) -> DrawInterface {
     match draw {
         Draw::Objects(_) => DrawInterface {
-            vertex_stride: 12,
+            vertex_buffers: vec![VertexBuffer::of_vertices(12)],
             attributes: vec![Attribute::new("place", 2, 4)],
             supplied: vec![SuppliedResource::new(1, 0, "view", SuppliedKind::UniformBlock)],
+            ..DrawInterface::default()
         },
         _ => DrawInterface::default(),
     }

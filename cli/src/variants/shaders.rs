@@ -57,8 +57,8 @@ impl ShaderInterfaces for SharedShaders<'_> {
         self.compiled(name, None, variant)
     }
 
-    fn brought_along(&self, draw: Option<Draw>) -> DrawInterface {
-        self.library.lock().unwrap_or_else(PoisonError::into_inner).brought_along(draw)
+    fn brought_along(&self, draw: Option<Draw>, name: &str) -> DrawInterface {
+        self.library.lock().unwrap_or_else(PoisonError::into_inner).brought_along(draw, name)
     }
 
     fn program_sets(&self) -> Vec<ProgramSet> {

@@ -124,7 +124,7 @@ impl ShaderInterfaces for FullScreen {
         Err(ShaderProblem::Unsupported { what: "no pass of the bench dispatches".to_owned() })
     }
 
-    fn brought_along(&self, _: Option<Draw>) -> DrawInterface {
+    fn brought_along(&self, _: Option<Draw>, _: &str) -> DrawInterface {
         DrawInterface::default()
     }
 }

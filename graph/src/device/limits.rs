@@ -100,6 +100,16 @@ limits! {
     SetInputAttachments, set_input_attachments, "maxDescriptorSetInputAttachments", 4;
     /// Storage images and storage blocks that a fragment stage uses, with the colours that it draws into.
     FragmentResources, fragment_resources, "maxFragmentCombinedOutputResources", 4;
+    /// Vertex buffers of a draw.
+    VertexBuffers, vertex_buffers, "maxVertexInputBindings", 16;
+    /// Locations of vertex attributes.
+    VertexAttributes, vertex_attributes, "maxVertexInputAttributes", 16;
+    /// Bytes from the beginning of a vertex to an attribute.
+    VertexOffset, vertex_offset, "maxVertexInputAttributeOffset", 2047;
+    /// Bytes from vertex to vertex.
+    VertexStride, vertex_stride, "maxVertexInputBindingStride", 2048;
+    /// Bytes of push constants.
+    PushConstantBytes, push_constant_bytes, "maxPushConstantsSize", 128;
     /// Texels that a line is wide, as far as they are whole.
     LineWidth, line_width, "lineWidthRange[1]", 1;
     /// Samples of a lookup along the direction of the slant.

@@ -1,6 +1,7 @@
 //! What shaders ask of a device beyond what every device has.
 
 use super::{Limit, Limits};
+use crate::vulkan::VertexFormat;
 use std::sync::Arc;
 
 /// Something that not every device has or allows.
@@ -31,6 +32,13 @@ pub enum NeedKind {
         /// What needs as much, in words with the value: `its workgroups have 1024 invocations`.
         what: Arc<str>,
     },
+    /// Vertices of a format that not every device reads.
+    VertexFormat {
+        /// The format.
+        format: VertexFormat,
+        /// The vertex attribute's name in the shader.
+        name: Arc<str>,
+    },
     /// The validator of SPIR-V doesn't know a word, so nothing says whether the shader is valid: its message.
     Unjudged(Arc<str>),
 }
@@ -43,6 +51,8 @@ pub struct Abilities<'d> {
     pub limits: Option<&'d Limits>,
     /// Whether it has the feature of this name.
     pub has: &'d dyn Fn(&str) -> bool,
+    /// Whether it reads vertices of this format, or that isn't known.
+    pub reads_vertices: &'d dyn Fn(VertexFormat) -> bool,
 }
 
 impl Need {
@@ -58,7 +68,10 @@ impl Need {
                 let most = abilities.limits?.of(*limit);
                 (*value > most).then(|| format!("{what}; {device} allows {most} ({})", limit.name()))?
             }
-            NeedKind::Feature { .. } | NeedKind::Unjudged(_) => return None,
+            NeedKind::VertexFormat { format, name } if !(abilities.reads_vertices)(*format) => {
+                format!("the vertex attribute `{name}` has the format {format}, of which {device} reads no vertices")
+            }
+            NeedKind::Feature { .. } | NeedKind::VertexFormat { .. } | NeedKind::Unjudged(_) => return None,
         };
         Some(if self.place.is_empty() { what } else { format!("{}: {what}", self.place) })
     }

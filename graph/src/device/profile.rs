@@ -4,7 +4,7 @@ use super::features::{EVERY_PLAN_USES, SOME_PLANS_USE};
 use super::limits::Limits;
 use super::memory::MemoryNeeds;
 use super::profile_rules;
-use crate::vulkan::{Format, ResolveMode, Sharing, Usage};
+use crate::vulkan::{Format, ResolveMode, Sharing, Usage, VertexFormat};
 use serde::{Deserialize, Serialize};
 
 /// A device's capabilities, as far as a Plan depends on them.
@@ -80,6 +80,14 @@ pub struct Profile {
         deserialize_with = "profile_rules::where_known"
     )]
     pub limits: Option<Limits>,
+    /// Formats of which it reads vertices beside those that every device reads; `None` where they aren't known: then none is missed.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        serialize_with = "profile_rules::known",
+        deserialize_with = "profile_rules::where_known"
+    )]
+    pub vertex_formats: Option<Vec<VertexFormat>>,
     /// Modes in which the rendering scope that draws depth can resolve it, without those that a test refuted.
     #[serde(default = "least_depth_resolve")]
     pub depth_resolve: Vec<ResolveMode>,
@@ -270,6 +278,12 @@ impl Profile {
             return self.max_clip_distances.is_none_or(|most| most > 0);
         }
         self.features.as_ref().is_none_or(|features| features.iter().any(|it| it == name))
+    }
+
+    /// Whether the device reads vertices of a format, or that isn't known.
+    #[must_use]
+    pub fn reads_vertices(&self, format: VertexFormat) -> bool {
+        format.is_on_every_device() || self.vertex_formats.as_ref().is_none_or(|known| known.contains(&format))
     }
 
     /// The support for `format`; `None` if there is none, or the feature that brings the format isn't switched on.

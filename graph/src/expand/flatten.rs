@@ -110,8 +110,9 @@ fn expand_so(
         }
     };
     let stereo = inputs.stereo;
-    let (pipeline, shared) =
-        eyes::split(pipeline, (stereo, stereo.form(inputs.device)), inputs.output_extent, &mut errors);
+    let by_instance = |pass: &language::Pass| shader::draws_by_instance(shaders, pass);
+    let eyes = eyes::Eyes { stereo, form: stereo.form(inputs.device), by_instance: &by_instance };
+    let (pipeline, shared) = eyes::split(pipeline, &eyes, inputs.output_extent, &mut errors);
     let mut reported = ReportedMistakes::default();
     reported.each_once(&mut errors, 0);
     let mut resources = Resources::resolve(&pipeline, inputs, &mut reported, &mut errors);

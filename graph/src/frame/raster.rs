@@ -19,6 +19,9 @@ pub struct RasterState {
     /// What vertices make.
     #[serde(skip_serializing_if = "is_usual")]
     pub topology: PrimitiveTopology,
+    /// Whether an index of all ones ends a strip or a fan, and begins another (`primitiveRestartEnable`).
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub primitive_restart: bool,
     /// What is added to depth.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub depth_bias: Option<DepthBias>,
@@ -39,6 +42,7 @@ impl Default for RasterState {
             cull_mode: None,
             front_face: FrontFace::CounterClockwise,
             topology: PrimitiveTopology::TriangleList,
+            primitive_restart: false,
             depth_bias: None,
             depth_clamp: false,
             line_width: Real::ONE,
@@ -211,6 +215,7 @@ impl std::fmt::Display for RasterState {
         words.extend(self.cull_mode.iter().map(|mode| format!("cull mode {}", name_of(mode))));
         words.extend((!is_usual(&self.front_face)).then(|| format!("front face {}", name_of(&self.front_face))));
         words.extend((!is_usual(&self.topology)).then(|| format!("topology {}", name_of(&self.topology))));
+        words.extend(self.primitive_restart.then(|| "primitive restart".to_owned()));
         words.extend(self.depth_bias.iter().map(|bias| {
             let [constant, slope, clamp] = [bias.constant, bias.slope, bias.clamp].map(f32::from);
             let bound = if bias.clamp.is_zero() { String::new() } else { format!(" up to {clamp}") };

@@ -1,35 +1,28 @@
 //! What the draw source brings along for one kind of draw, and what of it no device could bind.
 
-use super::{BINDINGS, Binding, BindingKind, PASS_SET, binding_name};
-use crate::vulkan::{Component, Dimension, ImageShape};
+use super::{Attribute, BINDINGS, Binding, BindingKind, PASS_SET, PushConstants, VertexBuffer, binding_name};
+use crate::vulkan::{Component, Dimension, ImageShape, PrimitiveTopology};
 use std::borrow::Cow;
 use std::collections::HashMap;
 
-/// Bytes from vertex to vertex that every device allows.
-const MOST_STRIDE: u32 = 2048;
 /// Descriptor sets that every device has.
 const SETS: u32 = 4;
 
 /// The interface of the draw source for one kind of draw: vertex attributes, and resources in sets from 1 on.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct DrawInterface {
-    /// Bytes from vertex to vertex; 0 if there is no vertex buffer.
-    pub vertex_stride: u32,
-    /// Vertex attributes, all 32-bit floats, by the name that shaders give them.
+    /// Vertex buffers, by the numbers of their bindings.
+    pub vertex_buffers: Vec<VertexBuffer>,
+    /// Vertex attributes, by the name that shaders give them.
     pub attributes: Vec<Attribute>,
+    /// What vertices make; `None`: triangles of each three, or what the pass says.
+    pub topology: Option<PrimitiveTopology>,
+    /// Whether an index of all ones ends a strip or a fan, and begins another.
+    pub primitive_restart: bool,
+    /// Push constants that are set for each draw.
+    pub push_constants: Vec<PushConstants>,
     /// Resources that are bound.
     pub supplied: Vec<SuppliedResource>,
-}
-
-/// A vertex attribute that is brought along.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Attribute {
-    /// Name in shaders.
-    pub name: Cow<'static, str>,
-    /// Number of 32-bit float components, 1 to 4.
-    pub components: u32,
-    /// Offset in a vertex, in bytes.
-    pub offset: u32,
 }
 
 /// A resource that is brought along.
@@ -72,20 +65,16 @@ pub struct DrawFault {
 /// A part of a draw interface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DrawPart {
-    /// The bytes from vertex to vertex.
-    VertexStride,
+    /// A vertex buffer, by its number.
+    VertexBuffer(usize),
     /// An attribute, by its number in the list.
     Attribute(usize),
+    /// That strips begin anew.
+    Restart,
+    /// A range of push constants, by its number in the list.
+    PushConstants(usize),
     /// A resource, by its number in the list.
     Supplied(usize),
-}
-
-impl Attribute {
-    /// An attribute of this many 32-bit floats, at an offset in bytes.
-    #[must_use]
-    pub const fn new(name: &'static str, components: u32, offset: u32) -> Attribute {
-        Attribute { name: Cow::Borrowed(name), components, offset }
-    }
 }
 
 impl SuppliedResource {
@@ -156,13 +145,10 @@ impl DrawInterface {
     /// All that is wrong with it: what not every device can bind, and what shaders couldn't tell apart.
     #[must_use]
     pub fn faults(&self) -> Vec<DrawFault> {
-        let mut faults = Vec::new();
-        if self.vertex_stride > MOST_STRIDE {
-            let message = format!(
-                "vertices of {} bytes: every device allows {MOST_STRIDE}, and not all more",
-                self.vertex_stride
-            );
-            faults.push(DrawFault { at: DrawPart::VertexStride, message, first: None });
+        let mut faults: Vec<DrawFault> = self.buffer_faults().chain(self.push_faults()).collect();
+        if self.primitive_restart && !self.topology.is_some_and(PrimitiveTopology::is_joined) {
+            let message = "strips that an index begins anew take a `topology` of strips or fans".to_owned();
+            faults.push(DrawFault { at: DrawPart::Restart, message, first: None });
         }
         let mut names = HashMap::new();
         for (number, attribute) in self.attributes.iter().enumerate() {
@@ -170,7 +156,9 @@ impl DrawInterface {
             let first = *names.entry(&*attribute.name).or_insert(at);
             let twice =
                 (first != at).then(|| (format!("`{}` is the name of two attributes", attribute.name), Some(first)));
-            let wrong = twice.or_else(|| Some((attribute.fault(self.vertex_stride)?, None)));
+            let unnamed = || (!is_identifier(&attribute.name)).then(|| no_identifier(&attribute.name));
+            let wrong = || unnamed().or_else(|| attribute.fault(&self.vertex_buffers));
+            let wrong = twice.or_else(|| Some((wrong()?, None)));
             faults.extend(wrong.map(|(message, first)| DrawFault { at, message, first }));
         }
         let (mut names, mut places) = (HashMap::new(), HashMap::new());
@@ -189,22 +177,6 @@ impl DrawInterface {
             faults.extend(wrong.map(|(message, first)| DrawFault { at, message, first }));
         }
         faults
-    }
-}
-
-impl Attribute {
-    fn fault(&self, stride: u32) -> Option<String> {
-        let Attribute { name, components, offset } = self;
-        if !is_identifier(name) {
-            return Some(no_identifier(name));
-        }
-        if !(1..=4).contains(components) {
-            return Some(format!("the vertex attribute `{name}` has {components} components; it can have 1 to 4"));
-        }
-        let end = offset.checked_add(components * 4);
-        let aligned = offset.is_multiple_of(4) && stride.is_multiple_of(4);
-        let fits = aligned && end.is_some_and(|end| end <= stride);
-        (!fits).then(|| format!("the vertex attribute `{name}` doesn't fit vertices of {stride} bytes"))
     }
 }
 

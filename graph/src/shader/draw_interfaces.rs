@@ -1,6 +1,6 @@
 //! What a draw source brings along for every kind of draw, the sets that its program binds, and the custom passes that it records.
 
-use super::{DrawInterface, DrawKind, ProgramSet, interface_file};
+use super::{DrawInterface, DrawKind, InterfaceOf, ProgramSet, interface_file};
 use crate::base::{Diagnostic, Sources};
 use crate::frame::Draw;
 use std::collections::BTreeMap;
@@ -12,6 +12,8 @@ use std::sync::Arc;
 pub struct DrawInterfaces {
     /// Without those that bring nothing.
     draws: BTreeMap<DrawKind, DrawInterface>,
+    /// Of custom passes that have one of their own, by their names.
+    of_custom: BTreeMap<Arc<str>, DrawInterface>,
     custom: Option<Vec<Arc<str>>>,
     /// In the order of their numbers.
     sets: Vec<ProgramSet>,
@@ -23,7 +25,7 @@ impl DrawInterfaces {
     #[must_use]
     pub fn with(mut self, kind: DrawKind, interface: DrawInterface) -> DrawInterfaces {
         let interface = match kind {
-            DrawKind::Compute => DrawInterface { vertex_stride: 0, attributes: Vec::new(), ..interface },
+            DrawKind::Compute => DrawInterface { supplied: interface.supplied, ..DrawInterface::default() },
             _ => interface,
         };
         if interface == DrawInterface::default() {
@@ -31,6 +33,13 @@ impl DrawInterfaces {
         } else {
             self.draws.insert(kind, interface);
         }
+        self
+    }
+
+    /// With an interface of its own for the draws of the custom pass `name`, in place of that of [`DrawKind::Custom`].
+    #[must_use]
+    pub fn with_custom(mut self, name: impl Into<Arc<str>>, interface: DrawInterface) -> DrawInterfaces {
+        self.of_custom.insert(name.into(), interface);
         self
     }
 
@@ -58,10 +67,22 @@ impl DrawInterfaces {
         self
     }
 
-    /// The interface of a draw; an empty one where the pass has vertices of its own.
+    /// The interface of a draw; an empty one where the pass has vertices of its own. Of a custom draw it is that of
+    /// [`DrawKind::Custom`]: see [`DrawInterfaces::of_pass`].
     #[must_use]
     pub fn of(&self, draw: Draw) -> DrawInterface {
         DrawKind::of(draw).map_or_else(DrawInterface::default, |kind| self.of_kind(kind))
+    }
+
+    /// The interface of a pass that draws `draw` (`None`: a compute pass). `name` is the name of its shader; of a custom pass that by
+    /// which the program knows it.
+    #[must_use]
+    pub fn of_pass(&self, draw: Option<Draw>, name: &str) -> DrawInterface {
+        match draw {
+            None => self.of_kind(DrawKind::Compute),
+            Some(Draw::Custom) => self.of_custom.get(name).cloned().unwrap_or_else(|| self.of(Draw::Custom)),
+            Some(draw) => self.of(draw),
+        }
     }
 
     /// The interface of a kind of draw, or of compute passes.
@@ -73,6 +94,19 @@ impl DrawInterfaces {
     /// The kinds of draws that something is brought along for, with what that is.
     pub fn all(&self) -> impl Iterator<Item = (DrawKind, &DrawInterface)> {
         self.draws.iter().map(|(kind, interface)| (*kind, interface))
+    }
+
+    /// All that a file has an entry for, with what is brought along for it.
+    pub(super) fn all_of_file(&self) -> impl Iterator<Item = (InterfaceOf, &DrawInterface)> {
+        let kinds = self.all().map(|(kind, interface)| (InterfaceOf::Kind(kind), interface));
+        let custom = self.of_custom.iter().map(|(name, interface)| (InterfaceOf::Custom(name.clone()), interface));
+        kinds.chain(custom)
+    }
+
+    /// Whether any of its draws brings push constants.
+    #[must_use]
+    pub fn push_constants(&self) -> bool {
+        self.all_of_file().any(|(_, interface)| !interface.push_constants.is_empty())
     }
 
     /// The sets that the program makes and binds itself, in the order of their numbers.

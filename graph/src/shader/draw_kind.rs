@@ -2,6 +2,7 @@
 
 use crate::frame::{Cascade, Draw, DrawList, Share};
 use std::fmt;
+use std::sync::Arc;
 
 /// A kind of draw that a draw source records, or of passes that it brings resources for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -59,6 +60,24 @@ impl DrawKind {
             DrawKind::Custom => Draw::Custom,
             DrawKind::Compute => return None,
         })
+    }
+}
+
+/// What an entry of an interface file is for.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub(super) enum InterfaceOf {
+    /// A kind of draw, or compute passes.
+    Kind(DrawKind),
+    /// The draws of the custom pass of this name.
+    Custom(Arc<str>),
+}
+
+impl fmt::Display for InterfaceOf {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            InterfaceOf::Kind(kind) => kind.fmt(f),
+            InterfaceOf::Custom(name) => write!(f, "Custom({name:?})"),
+        }
     }
 }
 

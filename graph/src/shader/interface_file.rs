@@ -1,7 +1,9 @@
 //! The file of a draw source's interfaces.
 
+use super::interface_vertices::{self, VertexFields, VertexPlaces};
 use super::{
-    Attribute, DrawInterface, DrawInterfaces, DrawKind, DrawPart, SuppliedKind, SuppliedResource, interface_sets,
+    DrawInterface, DrawInterfaces, DrawKind, DrawPart, InterfaceOf, PushConstants, SuppliedKind, SuppliedResource,
+    interface_sets,
 };
 use crate::base::{Code, Diagnostic, Sources, Span};
 use crate::fields;
@@ -17,7 +19,7 @@ const VERSION: i64 = 1;
 pub const LARGEST_INTERFACE: usize = 1 << 20;
 const FORM: &str = "an interface is `Interface(version: 1, draws: [(of: [Sky], supplied: […]), …], custom: [\"…\"])`";
 const KINDS: &str = "a kind of draw is `Objects(Opaque)`, `Objects(Masked)`, `Objects(Transparent)`, `Casters(Opaque)`, \
-                     `Casters(Masked)`, `Sky`, `FullScreen`, `Custom` or `Compute`";
+                     `Casters(Masked)`, `Sky`, `FullScreen`, `Custom`, `Custom(\"grass\")` or `Compute`";
 
 fields! {
     struct InterfaceFields<'t> as "Interface" {
@@ -33,16 +35,20 @@ fields! {
     struct DrawFields<'t> {
         of: Leaf<'t>,
         vertex_stride: Option<Leaf<'t>>,
+        vertex_buffers: Option<Leaf<'t>>,
         attributes: Option<Leaf<'t>>,
+        topology: Option<Leaf<'t>>,
+        primitive_restart: Option<Leaf<'t>>,
+        push_constants: Option<Leaf<'t>>,
         supplied: Option<Leaf<'t>>,
     }
 }
 
 fields! {
-    struct AttributeFields<'t> {
-        name: Leaf<'t>,
-        components: Leaf<'t>,
-        offset: Leaf<'t>,
+    struct PushFields<'t> {
+        stages: Option<Leaf<'t>>,
+        offset: Option<Leaf<'t>>,
+        bytes: Leaf<'t>,
     }
 }
 
@@ -56,26 +62,35 @@ fields! {
     }
 }
 
+impl<'t> DrawFields<'t> {
+    fn vertices(&self) -> VertexFields<'t> {
+        VertexFields {
+            stride: self.vertex_stride,
+            buffers: self.vertex_buffers,
+            attributes: self.attributes,
+            topology: self.topology,
+            restart: self.primitive_restart,
+        }
+    }
+}
+
 /// Writes the file. Kinds of draws that bring the same stand in one entry.
 pub(super) fn write(interfaces: &DrawInterfaces) -> String {
     let mut entries: Vec<(String, &DrawInterface)> = Vec::new();
-    for (kind, interface) in interfaces.all() {
+    for (kind, interface) in interfaces.all_of_file() {
         match entries.iter_mut().find(|(_, other)| *other == interface) {
             Some((kinds, _)) => *kinds += &format!(", {kind}"),
             None => entries.push((kind.to_string(), interface)),
         }
     }
     let mut text = format!("Interface(\n    version: {VERSION},\n    draws: [\n");
-    for (kinds, DrawInterface { vertex_stride, attributes, supplied }) in entries {
+    for (kinds, interface) in entries {
         // Writing to a text can't fail.
-        let _ = writeln!(text, "        (\n            of: [{kinds}],\n            vertex_stride: {vertex_stride},");
-        text += "            attributes: [\n";
-        for Attribute { name, components, offset } in attributes {
-            let one = format!("(name: {name:?}, components: {components}, offset: {offset})");
-            let _ = writeln!(text, "                {one},");
-        }
-        text += "            ],\n            supplied: [\n";
-        for SuppliedResource { set, binding, name, kind, count } in supplied {
+        let _ = writeln!(text, "        (\n            of: [{kinds}],");
+        interface_vertices::write(interface, &mut text);
+        write_pushed(interface, &mut text);
+        text += "            supplied: [\n";
+        for SuppliedResource { set, binding, name, kind, count } in &interface.supplied {
             let count = if *count == 1 { String::new() } else { format!(", count: {count}") };
             let one = format!("(name: {name:?}, set: {set}, binding: {binding}, kind: {kind:?}{count})");
             let _ = writeln!(text, "                {one},");
@@ -88,6 +103,18 @@ pub(super) fn write(interfaces: &DrawInterfaces) -> String {
         let _ = writeln!(text, "    custom: {custom:?},");
     }
     text + ")\n"
+}
+
+fn write_pushed(interface: &DrawInterface, text: &mut String) {
+    if interface.push_constants.is_empty() {
+        return;
+    }
+    *text += "            push_constants: [\n";
+    for PushConstants { stages, offset, bytes } in &interface.push_constants {
+        let stages = interface_sets::stage_words(*stages, PushConstants::new(0, 0).stages);
+        let _ = writeln!(text, "                (offset: {offset}, bytes: {bytes}{stages}),");
+    }
+    *text += "            ],\n";
 }
 
 /// Reads the file.
@@ -138,11 +165,10 @@ fn whole(reader: &mut Reader, all: Leaf<'_>) -> Option<DrawInterfaces> {
     for entry in reader.list(fields.draws, "the draws")? {
         let Some(fields) = reader.read::<DrawFields<'_>>(entry, "an entry of `draws`") else { continue };
         let kinds = kinds(reader, fields.of, &mut seen);
-        let (attributes, stride) = (fields.attributes, fields.vertex_stride);
+        let vertices = fields.vertices();
         let interface = interface(reader, fields);
-        let attributes = attributes.filter(|_| !interface.attributes.is_empty());
-        let vertices = attributes.or_else(|| stride.filter(|_| interface.vertex_stride > 0));
-        if let Some(leaf) = vertices.filter(|_| kinds.contains(&DrawKind::Compute)) {
+        if let Some(leaf) = vertices.told(&interface).filter(|_| kinds.contains(&InterfaceOf::Kind(DrawKind::Compute)))
+        {
             reader.wrong(
                 Code::INTERFACE_FILE,
                 leaf,
@@ -150,7 +176,10 @@ fn whole(reader: &mut Reader, all: Leaf<'_>) -> Option<DrawInterfaces> {
                 "give `Compute` an entry of its own",
             );
         }
-        interfaces = kinds.into_iter().fold(interfaces, |all, kind| all.with(kind, interface.clone()));
+        interfaces = kinds.into_iter().fold(interfaces, |all, of| match of {
+            InterfaceOf::Kind(kind) => all.with(kind, interface.clone()),
+            InterfaceOf::Custom(name) => all.with_custom(name, interface.clone()),
+        });
     }
     if let Some(sets) = fields.sets {
         interfaces = interface_sets::read(reader, sets, interfaces)?;
@@ -161,11 +190,19 @@ fn whole(reader: &mut Reader, all: Leaf<'_>) -> Option<DrawInterfaces> {
         let name = reader.outside_name(leaf, "a custom pass");
         names.give(reader, name);
     }
-    Some(interfaces.with_custom_passes(names.in_order()))
+    let interfaces = interfaces.with_custom_passes(names.in_order());
+    for (of, place) in &seen {
+        let InterfaceOf::Custom(name) = of else { continue };
+        if interfaces.custom_passes().is_some_and(|known| !known.contains(name)) {
+            let message = format!("no custom pass is called `{name}`");
+            reader.report(Diagnostic::new(Code::INTERFACE_FILE, *place, message).label(custom.span(), "these are"));
+        }
+    }
+    Some(interfaces)
 }
 
 /// The kinds of draws of an entry. `seen`: where they stand.
-fn kinds(reader: &mut Reader, leaf: Leaf<'_>, seen: &mut HashMap<DrawKind, Span>) -> Vec<DrawKind> {
+fn kinds(reader: &mut Reader, leaf: Leaf<'_>, seen: &mut HashMap<InterfaceOf, Span>) -> Vec<InterfaceOf> {
     let mut kinds = Vec::new();
     let leaves = reader.list(leaf, "kinds of draws").unwrap_or_default();
     if leaves.is_empty() {
@@ -180,7 +217,7 @@ fn kinds(reader: &mut Reader, leaf: Leaf<'_>, seen: &mut HashMap<DrawKind, Span>
                     .label(*first, "first here"),
             ),
             None => {
-                seen.insert(kind, leaf.span());
+                seen.insert(kind.clone(), leaf.span());
                 kinds.push(kind);
             }
         }
@@ -188,7 +225,7 @@ fn kinds(reader: &mut Reader, leaf: Leaf<'_>, seen: &mut HashMap<DrawKind, Span>
     kinds
 }
 
-fn kind(reader: &mut Reader, leaf: Leaf<'_>) -> Option<DrawKind> {
+fn kind(reader: &mut Reader, leaf: Leaf<'_>) -> Option<InterfaceOf> {
     const WORDS: [&str; 6] = ["Objects", "Casters", "Sky", "FullScreen", "Custom", "Compute"];
     let (word, rest) = reader.word(leaf, "a kind of draw", &WORDS, KINDS)?;
     let mut list = |lists: &[(&'static str, DrawList)], form| {
@@ -196,27 +233,35 @@ fn kind(reader: &mut Reader, leaf: Leaf<'_>) -> Option<DrawKind> {
         reader.choice(list, "a draw list", lists)
     };
     match word {
-        "Objects" => return list(&DrawList::NAMED, "Objects(Opaque)").map(DrawKind::Objects),
-        "Casters" => return list(&DrawList::CASTERS, "Casters(Opaque)").map(DrawKind::Casters),
+        "Objects" => {
+            return list(&DrawList::NAMED, "Objects(Opaque)").map(|list| InterfaceOf::Kind(DrawKind::Objects(list)));
+        }
+        "Casters" => {
+            return list(&DrawList::CASTERS, "Casters(Opaque)").map(|list| InterfaceOf::Kind(DrawKind::Casters(list)));
+        }
+        "Custom" if rest.is_some() => {
+            let [name]: [Leaf<'_>; 1] = reader.inside(leaf, rest, "Custom(\"grass\")")?;
+            return reader.outside_name(name, "a custom pass").map(|name| InterfaceOf::Custom(name.text));
+        }
         _ => reader.bare(word, rest)?,
     }
-    Some(match word {
+    Some(InterfaceOf::Kind(match word {
         "Sky" => DrawKind::Sky,
         "FullScreen" => DrawKind::FullScreen,
         "Compute" => DrawKind::Compute,
         _ => DrawKind::Custom,
-    })
+    }))
 }
 
 /// An interface. After a mistake it is something like it.
 fn interface(reader: &mut Reader, fields: DrawFields<'_>) -> DrawInterface {
-    let mut places = Places { stride: fields.vertex_stride, attributes: Vec::new(), supplied: Vec::new() };
     let before = reader.errors.len();
-    let stride = fields.vertex_stride.and_then(|leaf| number(reader, leaf, "the stride"));
-    let mut interface = DrawInterface { vertex_stride: stride.unwrap_or(0), ..DrawInterface::default() };
-    for leaf in list(reader, fields.attributes, "attributes") {
-        interface.attributes.extend(attribute(reader, leaf));
-        places.attributes.push(leaf);
+    let mut interface = DrawInterface::default();
+    let vertices = interface_vertices::read(reader, fields.vertices(), &mut interface);
+    let mut places = Places { vertices, pushed: Vec::new(), supplied: Vec::new() };
+    for leaf in list(reader, fields.push_constants, "push constants") {
+        interface.push_constants.extend(pushed(reader, leaf));
+        places.pushed.push(leaf);
     }
     for leaf in list(reader, fields.supplied, "resources") {
         interface.supplied.extend(supplied(reader, leaf));
@@ -239,16 +284,16 @@ fn interface(reader: &mut Reader, fields: DrawFields<'_>) -> DrawInterface {
 
 /// Where the parts of an interface stand.
 struct Places<'t> {
-    stride: Option<Leaf<'t>>,
-    attributes: Vec<Leaf<'t>>,
+    vertices: VertexPlaces<'t>,
+    pushed: Vec<Leaf<'t>>,
     supplied: Vec<Leaf<'t>>,
 }
 
 impl<'t> Places<'t> {
     fn of(&self, part: DrawPart) -> Option<Leaf<'t>> {
         match part {
-            DrawPart::VertexStride => self.stride,
-            DrawPart::Attribute(number) => self.attributes.get(number).copied(),
+            DrawPart::VertexBuffer(_) | DrawPart::Attribute(_) | DrawPart::Restart => self.vertices.of(part),
+            DrawPart::PushConstants(number) => self.pushed.get(number).copied(),
             DrawPart::Supplied(number) => self.supplied.get(number).copied(),
         }
     }
@@ -258,12 +303,15 @@ pub(super) fn list<'t>(reader: &mut Reader, leaf: Option<Leaf<'t>>, what: &str) 
     leaf.and_then(|leaf| reader.list(leaf, what)).unwrap_or_default()
 }
 
-fn attribute(reader: &mut Reader, leaf: Leaf<'_>) -> Option<Attribute> {
-    let fields: AttributeFields<'_> = reader.read(leaf, "an attribute")?;
-    let name = reader.reference(fields.name, "an attribute");
-    let components = number(reader, fields.components, "the number of components");
-    let offset = number(reader, fields.offset, "the offset");
-    Some(Attribute { name: name?.text.to_string().into(), components: components?, offset: offset? })
+fn pushed(reader: &mut Reader, leaf: Leaf<'_>) -> Option<PushConstants> {
+    let fields: PushFields<'_> = reader.read(leaf, "push constants")?;
+    let stages = match fields.stages {
+        None => Some(PushConstants::new(0, 0).stages),
+        Some(leaf) => interface_sets::stages(reader, leaf),
+    };
+    let offset = fields.offset.map_or(Some(0), |leaf| number(reader, leaf, "the offset"));
+    let bytes = number(reader, fields.bytes, "the number of bytes");
+    Some(PushConstants { stages: stages?, offset: offset?, bytes: bytes? })
 }
 
 fn supplied(reader: &mut Reader, leaf: Leaf<'_>) -> Option<SuppliedResource> {

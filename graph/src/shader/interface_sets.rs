@@ -50,13 +50,7 @@ pub(super) fn write(sets: &[ProgramSet], text: &mut String) {
             if *count != 1 {
                 let _ = write!(text, ", count: {count}");
             }
-            if *stages != Stages::all_of_sets() {
-                let named = Stages::of_sets()
-                    .into_iter()
-                    .filter(|(_, _, stage)| stages.contains(*stage))
-                    .map(|(name, ..)| name);
-                let _ = write!(text, ", stages: [{}]", named.collect::<Vec<_>>().join(", "));
-            }
+            *text += &stage_words(*stages, Stages::all_of_sets());
             let mut flags = *flags;
             let set: Vec<_> = FLAGS.iter().filter(|(_, flag)| *flag(&mut flags)).map(|(name, _)| *name).collect();
             if !set.is_empty() {
@@ -67,6 +61,23 @@ pub(super) fn write(sets: &[ProgramSet], text: &mut String) {
         *text += "            ],\n        ),\n";
     }
     *text += "    ],\n";
+}
+
+/// The field that names stages, behind others; nothing if they are the usual ones.
+pub(super) fn stage_words(stages: Stages, usual: Stages) -> String {
+    if stages == usual {
+        return String::new();
+    }
+    let named = Stages::of_sets().into_iter().filter(|(_, _, stage)| stages.contains(*stage)).map(|(name, ..)| name);
+    format!(", stages: [{}]", named.collect::<Vec<_>>().join(", "))
+}
+
+/// The stages of a list.
+pub(super) fn stages(reader: &mut Reader, leaf: Leaf<'_>) -> Option<Stages> {
+    let named = Stages::of_sets().map(|(name, _, stage)| (name, stage));
+    list(reader, Some(leaf), "stages")
+        .into_iter()
+        .try_fold(Stages::empty(), |all, stage| Some(all | reader.choice(stage, "a stage", &named)?))
 }
 
 /// Reads the sets of the program.
@@ -103,13 +114,7 @@ fn binding(reader: &mut Reader, leaf: Leaf<'_>) -> Option<ProgramBinding> {
     let binding = number(reader, fields.binding, "the binding");
     let kind = reader.choice(fields.kind, "a type of descriptors", DescriptorType::NAMED);
     let count = fields.count.map_or(Some(1), |leaf| number(reader, leaf, "the count"));
-    let named = Stages::of_sets().map(|(name, _, stage)| (name, stage));
-    let stages = match fields.stages {
-        None => Some(Stages::all_of_sets()),
-        Some(leaf) => list(reader, Some(leaf), "stages")
-            .into_iter()
-            .try_fold(Stages::empty(), |all, stage| Some(all | reader.choice(stage, "a stage", &named)?)),
-    };
+    let stages = fields.stages.map_or_else(|| Some(Stages::all_of_sets()), |leaf| stages(reader, leaf));
     let mut flags = BindingFlags::default();
     for leaf in list(reader, fields.flags, "flags") {
         if let Some(flag) = reader.choice(leaf, "a flag", &FLAGS) {

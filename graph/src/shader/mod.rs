@@ -1,5 +1,6 @@
 //! The interface of a shader, as data: a backend reads it off SPIR-V; `check` needs it, and no device.
 
+mod brought_vertices;
 mod constant;
 mod draw_interface;
 mod draw_interfaces;
@@ -8,11 +9,13 @@ mod element;
 mod given_names;
 mod interface_file;
 mod interface_sets;
+mod interface_vertices;
 mod needs;
 mod param_type;
 mod place_names;
 mod problem;
 mod program_set;
+mod push_constants;
 mod set_faults;
 mod shader_name;
 mod vertex_layout;
@@ -25,10 +28,12 @@ use std::collections::HashSet;
 use std::fmt;
 use std::sync::Arc;
 
+pub use brought_vertices::{Attribute, AttributeMisfit, BroughtLocation, VertexBuffer, VertexRate, vertex_needs};
 pub use constant::{ConstantValue, ShaderConstant};
-pub use draw_interface::{Attribute, DrawFault, DrawInterface, DrawPart, SuppliedKind, SuppliedResource};
+pub use draw_interface::{DrawFault, DrawInterface, DrawPart, SuppliedKind, SuppliedResource};
 pub use draw_interfaces::DrawInterfaces;
 pub use draw_kind::DrawKind;
+use draw_kind::InterfaceOf;
 pub use element::{declared_name, element_name, element_of};
 pub use interface_file::LARGEST_INTERFACE;
 pub use needs::resource_needs;
@@ -39,6 +44,7 @@ pub use place_names::{
 pub use program_set::{
     BindingFlags, DescriptorType, ProgramBinding, ProgramResource, ProgramSet, bindings_of_read_sets, set_needs,
 };
+pub use push_constants::{PushConstants, PushedBlock, push_needs};
 pub use set_faults::SetFault;
 pub use shader_name::{FileLanguage, LanguageFacts, ShaderName, StageName};
 pub use vertex_layout::{LayoutFault, LocationLayout, VertexInput, VertexLayout};
@@ -50,6 +56,8 @@ pub struct ShaderInterface {
     pub bindings: Vec<Binding>,
     /// What it reads of the program's own sets.
     pub program: Vec<ProgramResource>,
+    /// The blocks of push constants that its stages read, without those of the library's own.
+    pub pushed: Vec<PushedBlock>,
     /// Vertex attributes that the vertex stage declares.
     pub vertex_inputs: Vec<VertexInput>,
     /// Colour outputs of the fragment stage.
@@ -603,8 +611,8 @@ pub trait ShaderInterfaces {
     fn compute_shader(&mut self, name: &str, variant: &Variant) -> Result<ShaderInterface, ShaderProblem>;
 
     /// The interface of the draw source for `draw` (`None`: for compute shaders); an empty one where the pass has vertices of
-    /// its own.
-    fn brought_along(&self, draw: Option<Draw>) -> DrawInterface;
+    /// its own. `name` is the name of the shader; of a custom pass that by which the program knows it.
+    fn brought_along(&self, draw: Option<Draw>, name: &str) -> DrawInterface;
 
     /// The sets that the program makes and binds itself.
     fn program_sets(&self) -> Vec<ProgramSet> {

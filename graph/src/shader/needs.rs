@@ -115,7 +115,8 @@ mod tests {
             SuppliedResource::new(1, 0, "sky", SuppliedKind::SampledImage),
             SuppliedResource::new(2, 0, "textures", SuppliedKind::SampledImage).with_count(textures),
         ];
-        let abilities = Abilities { device: "this device", limits: Some(limits), has: &|_| false };
+        let abilities =
+            Abilities { device: "this device", limits: Some(limits), has: &|_| false, reads_vertices: &|_| false };
         let needs = resource_needs(&ShaderInterface::default(), brought.iter(), [].into_iter(), targets);
         needs.iter().find_map(|need| need.unmet(&abilities)).unwrap_or_default()
     }
@@ -168,7 +169,12 @@ mod tests {
             stages: Stages::FRAGMENT_SHADER,
         };
         let shader = ShaderInterface { bindings: (0..4).map(block).collect(), ..ShaderInterface::default() };
-        let abilities = Abilities { device: "this device", limits: Some(&Limits::LEAST), has: &|_| false };
+        let abilities = Abilities {
+            device: "this device",
+            limits: Some(&Limits::LEAST),
+            has: &|_| false,
+            reads_vertices: &|_| false,
+        };
         let unmet = |targets| {
             let needs = resource_needs(&shader, [].iter(), [].into_iter(), targets);
             needs.iter().find_map(|need| need.unmet(&abilities)).unwrap_or_default()

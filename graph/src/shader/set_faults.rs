@@ -35,7 +35,7 @@ impl DrawInterfaces {
             if number == PASS_SET || number >= SETS {
                 whole(format!("set {number} can't be the program's: those are 1 to {}", SETS - 1));
             }
-            let brings = self.all().find(|(_, it)| it.supplied.iter().any(|supplied| supplied.set == number));
+            let brings = self.all_of_file().find(|(_, it)| it.supplied.iter().any(|supplied| supplied.set == number));
             if let Some((kind, _)) = brings {
                 whole(format!("set {number} is the draw source's: it brings resources in it along for `{kind}`"));
             }

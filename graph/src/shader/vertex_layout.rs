@@ -58,17 +58,15 @@ pub struct LayoutFault {
 }
 
 impl VertexInput {
-    /// Whether it is one scalar or vector of floating point that begins a location, as all attributes that a draw source
-    /// brings.
-    #[must_use]
-    pub fn is_float(&self) -> bool {
-        self.component == 0 && matches!(&*self.ty, "float" | "vec2" | "vec3" | "vec4")
-    }
-
     /// Words for what the shader does with it.
     #[must_use]
     pub fn verb(&self) -> &'static str {
         if self.used { "reads" } else { "declares" }
+    }
+
+    /// How many locations it takes, and the type of their components; `None`: no buffer can hold such a type.
+    pub(super) fn read_as(&self) -> Option<(u32, Component)> {
+        self.columns().map(|(count, Column { kind, .. })| (count, kind))
     }
 
     /// How many locations it takes, and what is in each; `None`: no buffer can hold such a type.

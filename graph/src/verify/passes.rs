@@ -81,9 +81,13 @@ impl<'p> Check<'_, 'p> {
         if f32::from(pass.raster.line_width) < 1.0 {
             self.wrong_pass(pass, "draws lines that are narrower than a texel");
         }
-        let own_vertices = pass.draw.is_some_and(|draw| draw.has_own_vertices() || draw.is_custom());
-        if pass.raster.topology != PrimitiveTopology::TriangleList && !own_vertices {
-            self.wrong_pass(pass, "has another topology than triangles, and draws meshes of triangles");
+        let topology = pass.raster.topology;
+        if topology != PrimitiveTopology::TriangleList && pass.draw.is_some_and(Draw::is_full_screen) {
+            self.wrong_pass(pass, "has another topology than triangles, and draws the triangle that covers the picture");
+        }
+        let lists = [PrimitiveTopology::PointList, PrimitiveTopology::LineList, PrimitiveTopology::TriangleList];
+        if pass.raster.primitive_restart && lists.contains(&topology) {
+            self.wrong_pass(pass, "begins strips anew and draws none");
         }
         let second = pass.blend.iter().any(|blend| blend.takes_second_source());
         if second && listed_colors(scope, pass) > 1 {

@@ -16,6 +16,7 @@ mod rotation;
 mod sampler;
 mod stage;
 pub(crate) mod states;
+mod vertex_format;
 
 pub use access::AccessKind;
 pub use encoding::Encoding;
@@ -34,3 +35,4 @@ pub use raster::{BlendFactor, BlendOp, ColorComponents, CullMode, FrontFace, Pri
 pub use real::Real;
 pub use rotation::Rotation;
 pub use sampler::{AddressMode, BorderColor, Sampler, SamplerReductionMode};
+pub use vertex_format::VertexFormat;

@@ -126,6 +126,15 @@ impl FrontFace {
 }
 
 impl PrimitiveTopology {
+    /// Whether its primitives share vertices, so that an index can begin them anew.
+    #[must_use]
+    pub const fn is_joined(self) -> bool {
+        match self {
+            PrimitiveTopology::LineStrip | PrimitiveTopology::TriangleStrip | PrimitiveTopology::TriangleFan => true,
+            PrimitiveTopology::PointList | PrimitiveTopology::LineList | PrimitiveTopology::TriangleList => false,
+        }
+    }
+
     /// Whether its primitives have faces.
     #[must_use]
     pub const fn has_faces(self) -> bool {

@@ -4,9 +4,9 @@ use framewright_graph::base::{self, Sources};
 use framewright_graph::frame::{Draw, DrawList};
 use framewright_graph::shader::{
     Attribute, BindingFlags, DescriptorType, DrawInterface, DrawInterfaces, DrawKind, ProgramBinding, ProgramSet,
-    SuppliedKind, SuppliedResource,
+    SuppliedKind, SuppliedResource, VertexBuffer, VertexRate,
 };
-use framewright_graph::vulkan::Stages;
+use framewright_graph::vulkan::{PrimitiveTopology, Stages, VertexFormat};
 use proptest::prelude::*;
 use std::collections::BTreeMap;
 
@@ -20,9 +20,10 @@ fn engine(draw: Draw) -> DrawInterface {
     let camera = SuppliedResource::new(1, 0, "camera", SuppliedKind::UniformBlock);
     match draw {
         Draw::Objects(_) => DrawInterface {
-            vertex_stride: 20,
+            vertex_buffers: vec![VertexBuffer::of_vertices(20)],
             attributes: vec![Attribute::new("place", 3, 0), Attribute::new("tangent", 2, 12)],
             supplied: vec![camera, SuppliedResource::new(3, 7, "detail", SuppliedKind::SampledImage).with_count(64)],
+            ..DrawInterface::default()
         },
         Draw::Sky | Draw::Custom => DrawInterface { supplied: vec![camera], ..DrawInterface::default() },
         _ => DrawInterface::default(),
@@ -142,7 +143,6 @@ fn each_mistake_is_told_at_its_place() {
     let compute = "of: [Compute],\n            vertex_stride: ";
     let said = &["compute passes have no vertices", "an entry of its own"];
     wrong(&format!("{compute}0"), &format!("{compute}4"), "27:28", said);
-    wrong("vertex_stride: 20", "vertex_stride: 4000", "6:28", &["vertices of 4000 bytes: every device allows 2048"]);
     wrong("vertex_stride: 20", "vertex_stride: -4", "6:28", &["the stride can't be -4"]);
     wrong("vertex_stride: 20", "vertex_stride: 16", "9:17", &["`tangent` doesn't fit vertices of 16 bytes"]);
     wrong("offset: 12", "offset: 13", "9:17", &["`tangent` doesn't fit vertices of 20 bytes"]);
@@ -190,15 +190,25 @@ fn interface() -> impl Strategy<Value = DrawInterface> {
     let kind = prop::sample::select(SuppliedKind::NAMED.map(|(_, kind)| kind).to_vec());
     let named = ("[A-Za-z_][A-Za-z0-9_]{0,9}", kind, 1_u32..100);
     let supplied = prop::collection::btree_map((1_u32..4, 0_u32..256), named, 0..6);
-    let attributes = prop::collection::btree_map("[A-Za-z_][A-Za-z0-9_]{0,9}", 1_u32..5, 0..6);
-    (supplied, attributes, 0_u32..9).prop_map(|(supplied, named, more)| {
+    let format = prop::sample::select(VertexFormat::NAMED.iter().map(|(_, format)| *format).collect::<Vec<_>>());
+    let attribute = (format, 1_u32..5, 0_u32..3, prop::option::of(0_u32..16));
+    let attributes = prop::collection::btree_map("[A-Za-z_][A-Za-z0-9_]{0,9}", attribute, 0..6);
+    let rate = prop_oneof![Just(VertexRate::Vertex), (1_u32..5).prop_map(|divisor| VertexRate::Instance { divisor }),];
+    let buffers = prop::collection::vec((rate, 1_u32..9), 0..4);
+    (supplied, attributes, buffers, prop::bool::ANY).prop_map(|(supplied, named, buffers, strips)| {
         let mut interface = DrawInterface::default();
-        for (name, components) in named {
-            let offset = interface.vertex_stride;
-            interface.vertex_stride += 4 * components;
-            interface.attributes.push(Attribute { name: name.into(), components, offset });
+        if strips {
+            (interface.topology, interface.primitive_restart) = (Some(PrimitiveTopology::TriangleStrip), true);
         }
-        interface.vertex_stride += 4 * more;
+        let buffer = |(rate, more)| VertexBuffer { stride: 8 * more, rate };
+        interface.vertex_buffers.extend(buffers.into_iter().map(buffer));
+        for (name, (format, locations, buffer, location)) in named {
+            let Some(VertexBuffer { stride, .. }) = interface.vertex_buffers.get_mut(buffer as usize) else { continue };
+            let offset = stride.next_multiple_of(8);
+            *stride = (offset + locations * format.bytes()).next_multiple_of(8);
+            let name = name.into();
+            interface.attributes.push(Attribute { name, format, locations, location, buffer, offset });
+        }
         let by_name: BTreeMap<String, SuppliedResource> = supplied
             .into_iter()
             .map(|((set, binding), (name, kind, count))| {
@@ -220,6 +230,10 @@ proptest! {
         custom in prop::option::of(prop::collection::btree_set("[a-z_][a-z0-9_-]{5,9}", 0..4)),
     ) {
         let all = draws.into_iter().fold(DrawInterfaces::default(), |all, (kind, draws)| all.with(kind, draws));
+        let all = match &custom {
+            Some(names) => names.iter().fold(all, |all, name| all.with_custom(name.as_str(), DrawInterface::default())),
+            None => all,
+        };
         let all = match custom {
             Some(names) => all.with_custom_passes(names),
             None => all,

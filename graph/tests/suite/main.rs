@@ -15,6 +15,7 @@ mod demotion;
 mod depth_ladder;
 mod difference;
 mod draw_interfaces;
+mod draw_vertices;
 mod encodings;
 mod entries;
 mod expression;

@@ -10,7 +10,9 @@ use framewright_graph::frame::{
 };
 use framewright_graph::verify::verify;
 use framewright_graph::vulkan::Format::{D32_SFLOAT, R8G8B8A8_SRGB, R16G16B16A16_SFLOAT};
-use framewright_graph::vulkan::{Accesses, Layout, Shape, Stages, State, Subresources};
+use framewright_graph::vulkan::{
+    Accesses, CullMode, Filter, Layout, PrimitiveTopology, Real, Sampler, Shape, Stages, State, Subresources,
+};
 use std::sync::Arc;
 
 /// Draws into `color`, filters it to `screen`, and has a compute pass write `noise`, which is filtered, too.
@@ -32,6 +34,10 @@ fn dispatch(name: &str, image: ImageIndex) -> Pass {
 }
 
 type Change = fn(&mut Frame);
+
+fn half() -> Real {
+    Real::try_from(0.5).expect("finite")
+}
 
 /// Something that compute shaders saw last.
 fn imported(accesses: Accesses, layout: Layout) -> Lifetime {
@@ -59,7 +65,7 @@ fn what_cannot_be_is_refused_in_words() {
     fn noise(frame: &mut Frame) -> &mut Image {
         &mut frame.images[NOISE]
     }
-    let changes: [(&str, Change); 36] = [
+    let changes: [(&str, Change); 42] = [
         ("accesses `color` as storage, which has several samples", |frame| {
             frame.passes.push(dispatch("keep", ImageIndex(0)));
         }),
@@ -130,6 +136,21 @@ fn what_cannot_be_is_refused_in_words() {
         ("`fill` accesses `noise` as storage and in another way", |frame| {
             let again = Storage { read: true, write: false, ..frame.passes[0].storage[0].clone() };
             frame.passes[0].storage.push(again);
+        }),
+        ("pass `blend` has the topology LINE_LIST, and draws triangles", |frame| {
+            frame.passes[2].raster.topology = PrimitiveTopology::LineList;
+        }),
+        ("pass `opaque` begins strips anew, and draws TRIANGLE_LIST", |frame| {
+            frame.passes[1].raster.primitive_restart = true;
+        }),
+        ("pass `blend` promises to cover its targets, and leaves out all faces", |frame| {
+            frame.passes[2].covers = true;
+            frame.passes[2].raster.cull_mode = Some(CullMode::FrontAndBack);
+        }),
+        ("pass `opaque` draws lines 0.5 texels wide", |frame| frame.passes[1].raster.line_width = half()),
+        ("pass `fill` has a raster state and draws into nothing", |frame| frame.passes[0].raster.depth_clamp = true),
+        ("pass `blend` can't sample `source1` so: anisotropy goes with a linear filter", |frame| {
+            frame.passes[2].sampled[1].sampler = Sampler { anisotropy: 4, ..Sampler::new(Filter::Nearest) };
         }),
         ("`opaque` writes `color` in two ways at once", |frame| {
             let again = frame.passes[1].color[0].clone();

@@ -6,7 +6,7 @@ use framewright_graph::base;
 use framewright_graph::expand::Inputs;
 use framewright_graph::plan::{Pass, Plan, RenderScope, Work};
 use framewright_graph::verify::verify;
-use framewright_graph::vulkan::{ColorComponents, CullMode, LoadOp};
+use framewright_graph::vulkan::{ColorComponents, CullMode, LoadOp, PrimitiveTopology};
 
 /// A pass that follows one that fills `color`.
 fn text(second: &str) -> String {
@@ -170,6 +170,7 @@ fn states_that_do_not_go_with_a_pass_are_refused_where_they_stand() {
     let two = r#"color: [(image: "color", blend: (src_color: Src1Color, dst_color: One)), "two"]"#;
     let full = |more: &str| format!(r#"draw: FullScreen("plain"), color: ["color"], {more}"#);
     let vertices = r#"draw: Vertices(3), shader: "plain", color: ["color"], raster: (topology: PointList)"#.to_owned();
+    let own = |more: &str| format!(r#"draw: Vertices(3), shader: "points", color: ["color"], raster: ({more})"#);
     let second =
         r#"draw: FullScreen("plain"), color: [(image: "color", blend: (src_color: Src1Color, dst_color: One))]"#
             .to_owned();
@@ -177,6 +178,12 @@ fn states_that_do_not_go_with_a_pass_are_refused_where_they_stand() {
     for (pass, message, at) in [
         (full("raster: (topology: LineList)"), "has the topology LINE_LIST, and draws triangles", "(topology"),
         (vertices, "doesn't say how large they are", "(topology"),
+        (
+            own("topology: LineStrip, primitive_restart: true"),
+            "begins strips anew by an index, and has no",
+            "(topology",
+        ),
+        (own("primitive_restart: true"), "begins strips anew, and draws TRIANGLE_LIST", "(primitive"),
         (full("covers: true, raster: (cull_mode: FrontAndBack)"), "leaves out all faces", "(cull_mode"),
         (second, "shader `plain` has none", "(src_color"),
         (format!(r#"draw: FullScreen("second"), {two}"#), "into 2 colour targets", "(src_color"),
@@ -226,6 +233,8 @@ fn the_checker_finds_contents_that_are_lost() {
     assert!(wrong(whole, |scope| scope.passes[0].raster.cull_mode = Some(CullMode::Back)));
     assert!(!wrong(whole, |scope| scope.passes[0].raster.cull_mode = Some(CullMode::None)));
     assert!(wrong(whole, |scope| scope.passes[0].write_masks = vec![ColorComponents::RGBA; 2]));
+    assert!(wrong(whole, |scope| scope.passes[0].raster.primitive_restart = true));
+    assert!(wrong(whole, |scope| scope.passes[0].raster.topology = PrimitiveTopology::TriangleStrip));
     assert!(wrong(&format!("{whole}, covers: true"), |scope| {
         scope.passes[0].raster.cull_mode = Some(CullMode::FrontAndBack);
     }));

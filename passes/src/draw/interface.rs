@@ -2,7 +2,9 @@
 //! `shaders/include/motion.glsl` and `shaders/include/material.glsl`.
 
 use framewright_graph::frame::Draw;
-use framewright_graph::shader::{Attribute, DrawInterface, DrawInterfaces, DrawKind, SuppliedKind, SuppliedResource};
+use framewright_graph::shader::{
+    Attribute, DrawInterface, DrawInterfaces, DrawKind, SuppliedKind, SuppliedResource, VertexBuffer,
+};
 
 /// The set with the resources of a frame.
 pub const FRAME_SET: u32 = 1;
@@ -48,13 +50,14 @@ pub fn interface(draw: Draw) -> DrawInterface {
                 texture,
             ));
             DrawInterface {
-                vertex_stride: 32,
+                vertex_buffers: vec![VertexBuffer::of_vertices(32)],
                 attributes: vec![
                     Attribute::new("position", 3, 0),
                     Attribute::new("normal", 3, 12),
                     Attribute::new("uv", 2, 24),
                 ],
                 supplied,
+                ..DrawInterface::default()
             }
         }
         Draw::Sky | Draw::FullScreen => DrawInterface { supplied, ..DrawInterface::default() },

@@ -133,7 +133,7 @@ fn every_shipped_shader_compiles_and_finds_what_its_draw_brings_along() -> Resul
         }
         for input in &shader.vertex_inputs {
             let attribute = brought.attributes.iter().find(|attribute| attribute.name == *input.name);
-            let ty = attribute.map(|attribute| format!("vec{}", attribute.components));
+            let ty = attribute.map(|attribute| format!("vec{}", attribute.format.components()));
             assert_eq!(ty.as_deref(), Some(input.ty.as_str()), "{name}: {}", input.name);
         }
     }

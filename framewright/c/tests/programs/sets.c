@@ -145,6 +145,10 @@ int main(void) {
         check(framewright_renderer_bind_set(renderer, 3, set, NULL, 0));
         FAILS(framewright_renderer_frame(renderer, NULL), MISUSE, "takes 1 dynamic offsets and was given 0");
         check(framewright_renderer_bind_set(renderer, 3, set, &offset, 1));
+        /* A number that no set has is told, and nothing is drawn until it is let go. */
+        check(framewright_renderer_bind_set(renderer, 2, set, &offset, 1));
+        FAILS(framewright_renderer_frame(renderer, NULL), MISUSE, "set 2 is bound, and the program has told of none");
+        check(framewright_renderer_bind_set(renderer, 2, VK_NULL_HANDLE, NULL, 0));
         uint32_t first = drawn(renderer);
         offset = 256;
         check(framewright_renderer_bind_set(renderer, 3, set, &offset, 1));

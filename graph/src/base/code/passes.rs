@@ -110,7 +110,8 @@ room! {
 
     /// The raster state of a pass doesn't go with what it draws.
     ///
-    /// `topology` goes with `Vertices` and `Indirect`, whose vertex shader writes `gl_PointSize` where it makes points. A blend with
+    /// `topology` goes with `Vertices`, `Indirect` and custom passes, whose vertex shader writes `gl_PointSize` where it makes points. Where the
+    /// program says what its draws make, a pass says nothing else. `primitive_restart` goes with strips and fans that have indices. A blend with
     /// the shader's second colour needs one (`layout(location = 0, index = 1)`), and is that of the one colour target. A pass that
     /// leaves out front and back faces covers nothing.
     RASTER_UNFIT = 720,

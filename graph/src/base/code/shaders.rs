@@ -175,6 +175,13 @@ room! {
     /// `filter: Linear`, and the least mip level lies below the greatest. What is compared has no reduction.
     SAMPLER_UNFIT = 831,
 
+    /// A shader reads push constants that aren't set for it.
+    ///
+    /// What a pass gives its shader comes in the uniform block `params`. Push constants are those of a program's draws, which tells their
+    /// bytes: `DrawInterface::push_constants`, or `push_constants` in an interface file (`--interface`). A shader that reads any asks for no
+    /// part of an image.
+    PUSH_CONSTANTS = 832,
+
     /// Parameters have several blocks to go into.
     ///
     /// A shader in HLSL, Slang, WGSL or SPIR-V has several uniform blocks that the pass gives no buffer, and none of them is called

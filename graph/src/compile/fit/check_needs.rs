@@ -42,8 +42,12 @@ pub(crate) fn check_needs(frame: &Frame, live: &[u32], device: &Profile) -> Resu
 
 fn needs(pass: &Pass, device: &Profile, errors: &mut Vec<Diagnostic>, mut tell: impl FnMut(String)) {
     let name = format!("`{}`", device.name);
-    let abilities =
-        Abilities { device: &name, limits: device.limits.as_ref(), has: &|feature| device.has_feature(feature) };
+    let abilities = Abilities {
+        device: &name,
+        limits: device.limits.as_ref(),
+        has: &|feature| device.has_feature(feature),
+        reads_vertices: &|format| device.reads_vertices(format),
+    };
     for need in &pass.needs {
         if let Some(what) = need.unmet(&abilities) {
             let message = format!("the shader of `{}` can't be used on {name}: {what}", pass.name);

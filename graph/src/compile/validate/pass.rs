@@ -2,6 +2,8 @@
 
 use super::lifetimes;
 use crate::base::{Code, Diagnostic, Span};
+use crate::frame::check::raster::{self, RasterPlace};
+use crate::frame::check::samplers;
 use crate::frame::check::targets::{Target, agree, not_forwarded, undrawable, without_depth};
 use crate::frame::{Access, Frame, Image, ImageIndex, Lifetime, Pass, Resource, VisitAccess, check};
 use crate::vulkan::{Stages, Subresources};
@@ -152,6 +154,7 @@ impl Check<'_> {
             _ => {}
         }
         self.targets();
+        self.state();
         let fits = |stages: Stages| !stages.is_empty() && shaded.contains(stages);
         if let Some(sampled) = pass.sampled.iter().find(|sampled| !fits(sampled.stages)) {
             return self.wrong_stages(&sampled.binding);
@@ -192,6 +195,21 @@ impl Check<'_> {
             });
             agree(&pass.name, targets, errors);
         }
+    }
+
+    /// Raster state goes with what it draws, and samplers with the images.
+    fn state(&mut self) {
+        let Check { frame, pass, errors } = self;
+        let at = |place| match place {
+            RasterPlace::State if pass.raster_span != Span::NONE => pass.raster_span,
+            RasterPlace::State => pass.span,
+            RasterPlace::Blend(number) => pass.color[number].span,
+        };
+        if !pass.raster.is_usual() && pass.color.is_empty() && pass.depth.is_none() {
+            errors.push(raster::draws_into_nothing(&pass.name, at(RasterPlace::State)));
+        }
+        raster::check(pass, at, errors);
+        samplers::check(*frame, pass, errors);
     }
 
     /// Declared uses are of what the pass names, and can be.

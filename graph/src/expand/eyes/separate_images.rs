@@ -3,6 +3,7 @@
 //! Only draws, fills and copies of whole images work for both eyes at once. An image that other work makes, or reads
 //! otherwise than by sampling, is there for each eye; so is every image that is drawn from such an image, or beside it.
 
+use super::Eyes;
 use super::pass_eyes::PassEyes;
 use crate::frame::{EyeForm, ImageIndex, Stereo};
 use crate::language::{
@@ -23,7 +24,7 @@ impl SeparateImages {
         pipeline: &Pipeline,
         own: &[bool],
         whose: &[PassEyes],
-        stereo: Stereo,
+        eyes: &Eyes<'_>,
         form: EyeForm,
     ) -> SeparateImages {
         let why = pipeline.images.iter().zip(own).map(|(image, own)| own.then(|| by_itself(image)).flatten());
@@ -57,7 +58,7 @@ impl SeparateImages {
                 apart.part(to.image.index, || format!("`{name}` copies to it what both eyes share"));
             }
             if *whose == PassEyes::Each
-                && let Some(why) = only_one_by_one(pass, stereo)
+                && let Some(why) = only_one_by_one(pass, eyes)
             {
                 apart.all(written(pass).filter(own_part), &format!("`{name}` {why}"));
             }
@@ -72,10 +73,10 @@ impl SeparateImages {
     }
 
     /// Whether a pass that runs for each eye does so at once.
-    pub(super) fn at_once(&self, pass: &Pass, own: &[bool], stereo: Stereo) -> bool {
+    pub(super) fn at_once(&self, pass: &Pass, own: &[bool], eyes: &Eyes<'_>) -> bool {
         let apart =
             |part: &ImagePart| own[index(part.image.index)] && part.eye.is_none() && !self.is_one(part.image.index);
-        only_one_by_one(pass, stereo).is_none() && !read(pass).chain(written(pass)).any(apart)
+        only_one_by_one(pass, eyes).is_none() && !read(pass).chain(written(pass)).any(apart)
     }
 
     /// Why an image is one for each eye.
@@ -152,10 +153,14 @@ fn by_itself(image: &Image) -> Option<String> {
 }
 
 /// Why a pass can't work for both eyes at once.
-fn only_one_by_one(pass: &Pass, stereo: Stereo) -> Option<&'static str> {
+fn only_one_by_one(pass: &Pass, eyes: &Eyes<'_>) -> Option<&'static str> {
     match &pass.work {
-        Work::Draw { draw, .. } if draw.is_indirect() && stereo != Stereo::Multiview => {
+        Work::Draw { draw, .. } if draw.is_indirect() && eyes.stereo != Stereo::Multiview => {
             Some("draws the instances that a buffer says")
+        }
+        // Instances are both eyes' then, and their numbers no longer those of the buffer's elements.
+        Work::Draw { .. } if eyes.stereo != Stereo::Multiview && (eyes.by_instance)(pass) => {
+            Some("draws vertices with attributes by instance")
         }
         Work::Draw { .. } | Work::Fill { .. } => None,
         Work::Copy { from: Part::Image(_), to: Part::Image(_) } => None,

@@ -4,6 +4,7 @@
 //! run once. An impossible mixture is a mistake where the frame is drawn for two eyes, and a remark where it is drawn for one.
 //! In modes that draw both eyes at once, images hold both eyes' parts where they can, and passes run once for both (`separate_images`).
 
+use super::Eyes;
 use super::pass_eyes::{PassEyes, foreign_eyes, handed_on_once, whose};
 use super::separate_images::SeparateImages;
 use crate::base::{Diagnostic, Span};
@@ -26,14 +27,15 @@ struct Images {
     both: Vec<bool>,
 }
 
-/// Takes `pipeline` apart for the eyes that `stereo` asks for, and returns remarks: uses that are allowed, but probably a
-/// mistake. `form` is how images hold both eyes' parts, `extent` the frame's width and height.
+/// Takes `pipeline` apart for the eyes, and returns remarks: uses that are allowed, but probably a mistake. `extent` is the frame's
+/// width and height.
 pub(in crate::expand) fn split(
     mut pipeline: Pipeline,
-    (stereo, form): (Stereo, Option<EyeForm>),
+    eyes: &Eyes<'_>,
     extent: [u32; 2],
     errors: &mut Vec<Diagnostic>,
 ) -> (Pipeline, Vec<Remark>) {
+    let (stereo, form) = (eyes.stereo, eyes.form);
     let own = own(&pipeline);
     let before = errors.len();
     if !own.contains(&true) {
@@ -68,9 +70,9 @@ pub(in crate::expand) fn split(
     if stereo == Stereo::Off || errors.len() > before {
         return (pipeline, remarks);
     }
-    let apart = form.map(|form| SeparateImages::of(&pipeline, &own, &whose, stereo, form));
+    let apart = form.map(|form| SeparateImages::of(&pipeline, &own, &whose, eyes, form));
     remarks.extend(apart.iter().flat_map(|apart| images_apart(apart, &pipeline)));
-    let at_once = |pass: &Arc<Pass>| apart.as_ref().is_some_and(|apart| apart.at_once(pass, &own, stereo));
+    let at_once = |pass: &Arc<Pass>| apart.as_ref().is_some_and(|apart| apart.at_once(pass, &own, eyes));
     let at_once: Vec<bool> = pipeline.passes.iter().map(at_once).collect();
     let views = views(&mut pipeline, extent);
     let both =

@@ -8,6 +8,7 @@ use crate::expand::shader::{
     self, CheckedShaders, constants, coverage, local, params, rotation, sampled_images, samplers, stereo, storage,
     supplied_resources, variant,
 };
+use crate::frame::check;
 use crate::frame::{BufferRole, ColorTarget, DeclaredUse, DepthTarget, Pass, Resource, TransferUse, Work};
 use crate::language::{self, StandIn};
 use crate::shader::ShaderInterface;
@@ -29,7 +30,10 @@ pub(in crate::expand) fn lower(
         lowered.work.set_shader(found);
     }
     work::check(resources, pass, &lowered, interface.as_ref(), errors);
-    raster::check(pass, interface.as_ref(), errors);
+    if let Some(brought) = shaders.brought_along(pass) {
+        raster::join(pass, &brought, &mut lowered, errors);
+    }
+    raster::check(pass, &lowered, interface.as_ref(), errors);
     transfers::draw_part(&FilePass { resources, pass }, &mut lowered, errors);
     supplied_resources::custom(shaders, pass, errors);
     if let (Some(path), Some(interface)) = (&path, &interface) {
@@ -39,7 +43,8 @@ pub(in crate::expand) fn lower(
         let before = errors.len();
         let mut misspelt = sampled_images::check(resources, pass, &lowered, interface, errors);
         if errors.len() == before {
-            samplers::check(resources, pass, &lowered, interface, errors);
+            check::samplers::check(&FilePass { resources, pass }, &lowered, errors);
+            samplers::check(pass, &lowered, interface, errors);
             variant::check_single_sampled(pass, &lowered, &variant, shaders, errors);
             local::check(resources, pass, &lowered, (interface, &variant), shaders, errors);
         }

@@ -21,8 +21,9 @@ pub(in crate::expand) struct CheckedShaders<'s> {
     shaders: &'s mut dyn ShaderInterfaces,
     sources: &'s Sources,
     seen: HashSet<(Arc<str>, Option<Draw>)>,
-    /// What the draw source brings along for each draw that was asked about; `None`: for compute shaders.
-    brought: Vec<(Option<Draw>, Arc<DrawInterface>)>,
+    /// What the draw source brings along for each draw that was asked about (`None`: for compute shaders), and of custom passes for each
+    /// name.
+    brought: Vec<((Option<Draw>, Option<Arc<str>>), Arc<DrawInterface>)>,
     /// The sets that the program binds itself.
     program_sets: Vec<ProgramSet>,
     /// Shaders that have no interface, and why: one may draw several things.
@@ -132,13 +133,14 @@ impl<'s> CheckedShaders<'s> {
     }
 
     /// The interface that the draw source provides to a pass with a shader.
-    pub(super) fn brought_along(&mut self, pass: &language::Pass) -> Option<Arc<DrawInterface>> {
-        let (_, draw) = named(pass)?;
-        if let Some((_, known)) = self.brought.iter().find(|(of, _)| *of == draw) {
+    pub(in crate::expand) fn brought_along(&mut self, pass: &language::Pass) -> Option<Arc<DrawInterface>> {
+        let (name, draw) = named(pass)?;
+        let of = (draw, draw.is_some_and(Draw::is_custom).then(|| name.text.clone()));
+        if let Some((_, known)) = self.brought.iter().find(|(known, _)| *known == of) {
             return Some(known.clone());
         }
-        let brought = Arc::new(self.shaders.brought_along(draw));
-        self.brought.push((draw, brought.clone()));
+        let brought = Arc::new(self.shaders.brought_along(draw, &name.text));
+        self.brought.push((of, brought.clone()));
         Some(brought)
     }
 
@@ -151,6 +153,13 @@ impl<'s> CheckedShaders<'s> {
     pub(super) fn custom_passes(&self) -> Option<Vec<Arc<str>>> {
         self.shaders.custom_passes()
     }
+}
+
+/// Whether the draw source brings attributes by instance along for what a pass draws.
+pub(in crate::expand) fn draws_by_instance(shaders: &dyn ShaderInterfaces, pass: &language::Pass) -> bool {
+    let Some((name, draw @ Some(_))) = named(pass) else { return false };
+    let brought = shaders.brought_along(draw, &name.text);
+    brought.vertex_buffers.iter().any(|buffer| buffer.rate.is_by_instance())
 }
 
 /// The shader that a pass names, and the draw; a draw of `None`: it is a compute shader.

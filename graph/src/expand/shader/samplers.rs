@@ -1,31 +1,19 @@
 //! Samplers by themselves: one samples all its images alike.
 
 use crate::base::{Code, Diagnostic};
-use crate::expand::resources::Resources;
 use crate::frame::Pass;
 use crate::language;
 use crate::shader::{PASS_SET, ShaderInterface, declared_name};
-use crate::vulkan::{AddressMode, Aspects, Filter, Format, Sampler, name_of};
+use crate::vulkan::{AddressMode, Filter, Sampler, name_of};
 
 /// Reports images that one sampler samples, and that the pass gives in different ways.
 pub(in crate::expand) fn check(
-    resources: &Resources<'_>,
     pass: &language::Pass,
     lowered: &Pass,
     interface: &ShaderInterface,
     errors: &mut Vec<Diagnostic>,
 ) {
     let shader = pass.shader().map_or("", |shader| &*shader.text);
-    for sampled in &lowered.sampled {
-        let Some(image) = resources.image(sampled.image) else { continue };
-        // A stencil is read as integers.
-        let stencil = sampled.range.aspects == Aspects::STENCIL;
-        let format = if stencil { Format::R8_UINT } else { image.image.format };
-        if let Some(mistake) = sampled.sampler.mistake(format) {
-            let message = format!("pass `{}` can't sample `{}` so: {mistake}", pass.name.text, sampled.binding);
-            errors.push(Diagnostic::new(Code::SAMPLER_UNFIT, sampled.span, message));
-        }
-    }
     for binding in interface.bindings.iter().filter(|binding| binding.set == PASS_SET) {
         let Some((images, compares)) = binding.kind.sampler() else { continue };
         let is_its = |name: &str| images.iter().any(|image| *image == declared_name(name));

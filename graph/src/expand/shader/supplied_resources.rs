@@ -8,8 +8,9 @@ use crate::frame::Draw;
 use crate::language;
 use crate::ron::Name;
 use crate::shader::{
-    Binding, DrawInterface, LayoutFault, PASS_SET, ProgramResource, ProgramSet, ShaderInterface, SuppliedResource,
-    UnbindableResource, VertexLayout, bindings_of_read_sets, resource_needs, set_needs,
+    AttributeMisfit, Binding, DrawInterface, LayoutFault, PASS_SET, ProgramResource, ProgramSet, ShaderInterface,
+    SuppliedResource, UnbindableResource, VertexLayout, bindings_of_read_sets, push_needs, resource_needs, set_needs,
+    vertex_needs,
 };
 use std::sync::Arc;
 
@@ -30,6 +31,7 @@ pub(in crate::expand) fn check(
     if !own {
         attributes(shader, interface, &brought, errors);
     }
+    pushed(shader, interface, &brought, errors);
     for binding in interface.bindings.iter().filter(|binding| binding.set != PASS_SET) {
         resource(shader, binding, &brought.supplied, errors);
     }
@@ -50,6 +52,10 @@ pub(in crate::expand) fn needs(
     let brought = binds.then(|| shaders.brought_along(pass)).flatten();
     let supplied = brought.iter().flat_map(|brought| &brought.supplied);
     let mut needs = interface.needs.clone();
+    if let Some(brought) = &brought {
+        needs.append(&mut vertex_needs(&interface.vertex_inputs, brought));
+        needs.extend(push_needs(brought).filter(|_| !interface.pushed.is_empty()));
+    }
     let sets = shaders.program_sets();
     let program = bindings_of_read_sets(&interface.program, sets);
     needs.append(&mut resource_needs(interface, supplied, program, pass.color.len()));
@@ -112,22 +118,39 @@ fn own_attributes(
 fn attributes(shader: &Name, interface: &ShaderInterface, brought: &DrawInterface, errors: &mut Vec<Diagnostic>) {
     let Name { text: shader, span } = shader;
     for input in &interface.vertex_inputs {
-        let (name, ty) = (&input.name, &input.ty);
-        if !brought.attributes.iter().any(|attribute| attribute.name == **name) {
-            let verb = input.verb();
-            let message = format!("shader `{shader}` {verb} the vertex attribute `{name}`, which doesn't exist");
-            let help = in_the_shader(suggestion(name, brought.attributes.iter().map(|attribute| &*attribute.name)))
-                .or_else(|| Some("what this pass draws has no vertex attributes".to_owned()));
-            let unknown =
-                Diagnostic::new(Code::VERTEX_ATTRIBUTES, *span, message).choice(OutsideChoice::DrawInterfaces);
-            errors.push(Diagnostic { help, ..unknown });
-        } else if !input.is_float() {
-            let part = if input.component == 0 { "" } else { " from another component than the first on" };
-            let verb = input.verb();
-            let message = format!("shader `{shader}` {verb} the vertex attribute `{name}` as `{ty}`{part}");
-            let help = "vertex attributes are floating point: `float`, `vec2`, `vec3` or `vec4`, each at a location of its own";
-            errors.push(Diagnostic::new(Code::VERTEX_ATTRIBUTES, *span, message).help(help));
-        }
+        let Err(misfit) = brought.locations(input) else { continue };
+        let (name, ty, verb) = (&input.name, &input.ty, input.verb());
+        let reads = format!("shader `{shader}` {verb} the vertex attribute `{name}`");
+        let (message, help) = match misfit {
+            AttributeMisfit::Unknown => {
+                let help = in_the_shader(suggestion(name, brought.attributes.iter().map(|attribute| &*attribute.name)));
+                let none = || Some("what this pass draws has no vertex attributes".to_owned());
+                (format!("{reads}, which doesn't exist"), help.or_else(none))
+            }
+            AttributeMisfit::Component => {
+                (format!("{reads} as `{ty}` from another component than the first on"), misfit.help(input))
+            }
+            AttributeMisfit::Format(_) | AttributeMisfit::Locations(_) => {
+                (format!("{reads} as `{ty}`"), misfit.help(input))
+            }
+        };
+        let wrong = Diagnostic::new(Code::VERTEX_ATTRIBUTES, *span, message).choice(OutsideChoice::DrawInterfaces);
+        errors.push(Diagnostic { help, ..wrong });
+    }
+}
+
+/// Reports push constants that the draw source doesn't set, or not beside parts of images.
+fn pushed(shader: &Name, interface: &ShaderInterface, brought: &DrawInterface, errors: &mut Vec<Diagnostic>) {
+    for block in &interface.pushed {
+        let what = match (brought.pushed_misfit(block), interface.asks_part.first()) {
+            (Some(misfit), _) => misfit,
+            (None, Some(part)) => {
+                format!("push constants `{}` beside the part of `{part}`, which is one too", block.name)
+            }
+            (None, None) => continue,
+        };
+        let message = format!("shader `{}` reads {what}", shader.text);
+        errors.push(Diagnostic::new(Code::PUSH_CONSTANTS, shader.span, message).choice(OutsideChoice::DrawInterfaces));
     }
 }
 

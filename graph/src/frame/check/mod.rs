@@ -1,11 +1,13 @@
-//! The rules of a frame that pipeline files and programs share: shapes of images, targets, copies and blits, and contents that must be
-//! there. Each is checked here, and put into words here but for contents.
+//! The rules of a frame that pipeline files and programs share: shapes of images, targets, raster state, samplers, copies and blits, and
+//! contents that must be there. Each is checked here, and put into words here but for contents.
 //!
 //! `expand` knows where a file says what is wrong. `compile` checks frames of programs, and says which pass is wrong. Values that a
 //! format doesn't hold, and what only a program can say wrong, each of them checks by itself.
 
 pub(crate) mod contents;
 pub(crate) mod images;
+pub(crate) mod raster;
+pub(crate) mod samplers;
 pub(crate) mod targets;
 pub(crate) mod transfers;
 pub(crate) mod uses;

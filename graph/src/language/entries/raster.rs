@@ -25,10 +25,13 @@ fields! {
         front_face: Option<Leaf<'src>> => Form::Either(&[
             Form::Choice("a front face", || names(FrontFace::NAMED)), Form::Expression("a front face"),
         ]),
-        /// What the vertices of `Vertices` and `Indirect` make; `TriangleList` if left out.
+        /// What the vertices of `Vertices`, `Indirect` and custom passes make; `TriangleList` if left out. Of what a program draws its
+        /// [interface file](embedding.md#topologies) may say it.
         topology: Option<Leaf<'src>> => Form::Either(&[
             Form::Choice("a topology", || names(PrimitiveTopology::NAMED)), Form::Expression("a topology"),
         ]),
+        /// `true`: an index of all ones ends a strip or a fan, and begins another; such an index is a vertex if left out.
+        primitive_restart: Option<Leaf<'src>> => Form::Truth,
         /// What is added to depth; nothing if left out. Depth is reversed: less than 0 moves away.
         depth_bias: Option<Leaf<'src>> => Form::Fields(DepthBiasFields::<'static>::table),
         /// `true`: what lies in front of the near plane or behind the far plane is drawn with the depth of that plane; it is cut off
@@ -118,21 +121,25 @@ impl Context<'_> {
         let depth_clamp = optional(fields.depth_clamp, |leaf| self.truth(leaf).map(FieldValue::alone));
         let line_width = optional(fields.line_width, |leaf| self.line_width(leaf));
         let constants = optional(fields.blend_constants, |leaf| self.blend_constants(leaf));
-        let words = (cull_mode?, front_face?, topology?);
+        let restart = optional(fields.primitive_restart, |leaf| self.truth(leaf).map(FieldValue::alone));
+        let words = (cull_mode?, front_face?, topology?, restart?);
         let parts = (words, depth_bias?, depth_clamp?, line_width?, constants?);
-        let state =
-            combined(parts, |((cull_mode, front_face, topology), depth_bias, depth_clamp, width, constants)| {
+        let state = combined(
+            parts,
+            |((cull_mode, front_face, topology, restart), depth_bias, depth_clamp, width, constants)| {
                 let usual = RasterState::default();
                 RasterState {
                     cull_mode,
                     front_face: front_face.unwrap_or(usual.front_face),
                     topology: topology.unwrap_or(usual.topology),
+                    primitive_restart: restart.unwrap_or(usual.primitive_restart),
                     depth_bias,
                     depth_clamp: depth_clamp.unwrap_or(usual.depth_clamp),
                     line_width: width.unwrap_or(usual.line_width),
                     blend_constants: constants.unwrap_or(usual.blend_constants),
                 }
-            });
+            },
+        );
         Some(at(leaf, state))
     }
 

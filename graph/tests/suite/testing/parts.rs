@@ -36,6 +36,7 @@ pub(crate) fn device() -> Profile {
         features: None,
         without: Vec::new(),
         limits: None,
+        vertex_formats: None,
         depth_resolve: vec![ResolveMode::SampleZero],
         refuted_depth_resolve: Vec::new(),
         refuted_layered_depth_resolve: Vec::new(),

@@ -5,7 +5,7 @@ use framewright_graph::frame::Draw;
 use framewright_graph::shader::{
     Attribute, Binding, BindingKind, Block, DrawInterface, FragmentOutput, Member, ShaderInterface, ShaderInterfaces,
     ShaderMessage, ShaderProblem, SuppliedKind, SuppliedResource, UnbindableResource, UnsetOutput, Variant,
-    VertexInput,
+    VertexBuffer, VertexInput,
 };
 use framewright_graph::vulkan::{Component, Dimension, Format, ImageShape, Stages};
 
@@ -551,14 +551,14 @@ impl ShaderInterfaces for Table {
         })
     }
 
-    fn brought_along(&self, draw: Option<Draw>) -> DrawInterface {
+    fn brought_along(&self, draw: Option<Draw>, _: &str) -> DrawInterface {
         let supplied = |set, binding, name, kind| SuppliedResource::new(set, binding, name, kind);
         let view = supplied(1, 0, "view", SuppliedKind::UniformBlock);
         let lights = supplied(1, 1, "lights", SuppliedKind::StorageBlock);
         match draw {
             None => DrawInterface { supplied: vec![view], ..DrawInterface::default() },
             Some(Draw::Objects(_) | Draw::Casters(_)) => DrawInterface {
-                vertex_stride: 32,
+                vertex_buffers: vec![VertexBuffer::of_vertices(32)],
                 attributes: vec![
                     Attribute::new("position", 3, 0),
                     Attribute::new("normal", 3, 12),
@@ -570,6 +570,7 @@ impl ShaderInterfaces for Table {
                     supplied(1, 2, "objects", SuppliedKind::StorageBlock),
                     supplied(2, 0, "base_color_texture", SuppliedKind::SampledImage),
                 ],
+                ..DrawInterface::default()
             },
             Some(Draw::Sky) => DrawInterface { supplied: vec![view], ..DrawInterface::default() },
             Some(Draw::FullScreen) => DrawInterface { supplied: vec![view, lights], ..DrawInterface::default() },

@@ -1,0 +1,302 @@
+//! The vertices that a draw source brings along: its buffers, and the attributes in them.
+
+use super::{DrawFault, DrawInterface, DrawPart, VertexInput, location_name};
+use crate::device::{Limit, Need, NeedKind};
+use crate::vulkan::{Component, VertexFormat};
+use std::borrow::Cow;
+
+/// Vulkan's name of the feature that several instances in a row with one element need.
+const DIVISOR: &str = "vertexAttributeInstanceRateDivisor";
+
+/// A vertex buffer, by the number of its binding in [`DrawInterface::vertex_buffers`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct VertexBuffer {
+    /// Bytes from element to element, at least 1.
+    pub stride: u32,
+    /// When the next element is read.
+    pub rate: VertexRate,
+}
+
+/// When the next element of a vertex buffer is read (`VkVertexInputRate`).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum VertexRate {
+    /// For each vertex.
+    Vertex,
+    /// For each instance, or after several.
+    Instance {
+        /// How many instances in a row read one element, at least 1. More than 1 needs the feature
+        /// `vertexAttributeInstanceRateDivisor`.
+        divisor: u32,
+    },
+}
+
+/// A vertex attribute that is brought along. Shaders read it by its name, with as many components as they like: those that it doesn't
+/// have are 0, and the fourth is 1.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Attribute {
+    /// Name in shaders.
+    pub name: Cow<'static, str>,
+    /// Its format; of a matrix or an array that of one location.
+    pub format: VertexFormat,
+    /// How many locations it takes, one behind the other in the buffer, at least 1: of a matrix as many as it has columns.
+    pub locations: u32,
+    /// Where shaders without names read it; `None`: they can't.
+    pub location: Option<u32>,
+    /// The number of its vertex buffer.
+    pub buffer: u32,
+    /// Offset in an element of the buffer, in bytes.
+    pub offset: u32,
+}
+
+/// One location of a vertex shader, and where it is read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct BroughtLocation {
+    /// Location.
+    pub location: u32,
+    /// The number of the vertex buffer.
+    pub buffer: u32,
+    /// Offset in an element of the buffer, in bytes.
+    pub offset: u32,
+    /// Format.
+    pub format: VertexFormat,
+}
+
+/// Why a shader can't read what is brought along as the attribute that it declares.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AttributeMisfit {
+    /// Nothing of that name is brought along.
+    Unknown,
+    /// It begins behind the first component of its location.
+    Component,
+    /// It has components of another type than this format.
+    Format(VertexFormat),
+    /// It takes more locations than this.
+    Locations(u32),
+}
+
+impl VertexBuffer {
+    /// A buffer with an element for each vertex.
+    #[must_use]
+    pub const fn of_vertices(stride: u32) -> VertexBuffer {
+        VertexBuffer { stride, rate: VertexRate::Vertex }
+    }
+
+    /// A buffer with an element for each instance.
+    #[must_use]
+    pub const fn of_instances(stride: u32) -> VertexBuffer {
+        VertexBuffer { stride, rate: VertexRate::Instance { divisor: 1 } }
+    }
+}
+
+impl VertexRate {
+    /// Whether elements are read by instances.
+    #[must_use]
+    pub const fn is_by_instance(self) -> bool {
+        matches!(self, VertexRate::Instance { .. })
+    }
+}
+
+impl Attribute {
+    /// An attribute of 1 to 4 32-bit floats, at an offset in bytes in the first buffer. Of other numbers the nearest is taken.
+    #[must_use]
+    pub const fn new(name: &'static str, components: u32, offset: u32) -> Attribute {
+        let format = match components {
+            0 | 1 => VertexFormat::R32_SFLOAT,
+            2 => VertexFormat::R32G32_SFLOAT,
+            3 => VertexFormat::R32G32B32_SFLOAT,
+            _ => VertexFormat::R32G32B32A32_SFLOAT,
+        };
+        Attribute::of_format(name, format, offset)
+    }
+
+    /// An attribute of any format, at an offset in bytes in the first buffer.
+    #[must_use]
+    pub const fn of_format(name: &'static str, format: VertexFormat, offset: u32) -> Attribute {
+        Attribute { name: Cow::Borrowed(name), format, locations: 1, location: None, buffer: 0, offset }
+    }
+
+    /// The same in the buffer of this number.
+    #[must_use]
+    pub const fn in_buffer(mut self, buffer: u32) -> Attribute {
+        self.buffer = buffer;
+        self
+    }
+
+    /// The same of several locations, one behind the other: a matrix of as many columns, or an array.
+    #[must_use]
+    pub const fn with_locations(mut self, locations: u32) -> Attribute {
+        self.locations = locations;
+        self
+    }
+
+    /// The same, read at this location by shaders without names.
+    #[must_use]
+    pub const fn at_location(mut self, location: u32) -> Attribute {
+        self.location = Some(location);
+        self
+    }
+
+    /// Whether a shader means this: by its name, or by its place where it has no names.
+    #[must_use]
+    pub fn is_called(&self, input: &VertexInput) -> bool {
+        *self.name == *input.name
+            || self.location == Some(input.location) && input.name == location_name(input.location)
+    }
+
+    /// What is wrong with it in these buffers, in words.
+    pub(super) fn fault(&self, buffers: &[VertexBuffer]) -> Option<String> {
+        let Attribute { name, format, locations, buffer, offset, .. } = self;
+        if *locations == 0 {
+            return Some(format!("the vertex attribute `{name}` takes no location; one is the least"));
+        }
+        let Some(VertexBuffer { stride, .. }) = buffers.get(*buffer as usize) else {
+            let count = buffers.len();
+            return Some(match count {
+                0 => format!("the vertex attribute `{name}` doesn't fit vertices of 0 bytes"),
+                _ => format!("the vertex attribute `{name}` is in vertex buffer {buffer}, and there are {count}"),
+            });
+        };
+        // That the buffer's elements have no bytes is told of the buffer.
+        if *stride == 0 {
+            return None;
+        }
+        let end = u64::from(*offset) + u64::from(*locations) * u64::from(format.bytes());
+        let alignment = format.alignment();
+        let aligned = [*offset, *stride, format.bytes()].iter().all(|bytes| bytes.is_multiple_of(alignment));
+        if aligned && end <= u64::from(*stride) {
+            return None;
+        }
+        let what = format!("the vertex attribute `{name}` doesn't fit vertices of {stride} bytes");
+        Some(match aligned || alignment == 1 {
+            true => what,
+            false => format!("{what}: places of {format} are multiples of {alignment} bytes"),
+        })
+    }
+}
+
+impl DrawInterface {
+    /// The attribute that a shader means, if it is brought along.
+    #[must_use]
+    pub fn attribute(&self, input: &VertexInput) -> Option<&Attribute> {
+        self.attributes.iter().find(|attribute| attribute.is_called(input))
+    }
+
+    /// Where a shader's attribute is read, location by location.
+    ///
+    /// # Errors
+    /// [`AttributeMisfit`], if what is brought along isn't what the shader declares.
+    pub fn locations(
+        &self,
+        input: &VertexInput,
+    ) -> Result<impl Iterator<Item = BroughtLocation> + use<>, AttributeMisfit> {
+        let there = self.attribute(input).ok_or(AttributeMisfit::Unknown)?;
+        let (count, component) = input.read_as().ok_or(AttributeMisfit::Format(there.format))?;
+        let misfit = match () {
+            () if input.component != 0 => Some(AttributeMisfit::Component),
+            () if component != there.format.component() => Some(AttributeMisfit::Format(there.format)),
+            () if count > there.locations => Some(AttributeMisfit::Locations(there.locations)),
+            () => None,
+        };
+        if let Some(misfit) = misfit {
+            return Err(misfit);
+        }
+        let Attribute { format, buffer, offset, .. } = *there;
+        let first = input.location;
+        Ok((0..count).map(move |number| BroughtLocation {
+            location: first.saturating_add(number),
+            buffer,
+            offset: offset + number * format.bytes(),
+            format,
+        }))
+    }
+
+    /// Whether a shader with these attributes reads any by instances.
+    #[must_use]
+    pub fn reads_by_instance(&self, inputs: &[VertexInput]) -> bool {
+        let mut read = inputs.iter().filter_map(|input| self.attribute(input));
+        read.any(|it| self.vertex_buffers.get(it.buffer as usize).is_some_and(|buffer| buffer.rate.is_by_instance()))
+    }
+
+    /// What is wrong with its vertex buffers.
+    pub(super) fn buffer_faults(&self) -> impl Iterator<Item = DrawFault> {
+        self.vertex_buffers.iter().enumerate().filter_map(|(number, VertexBuffer { stride, rate })| {
+            let message = match (stride, rate) {
+                (0, _) => format!("the vertices of buffer {number} have no bytes: leave the buffer out"),
+                (_, VertexRate::Instance { divisor: 65536.. }) => {
+                    format!("vertex buffer {number} has one element for more instances than every device allows, 65535")
+                }
+                (_, VertexRate::Instance { divisor: 0 }) => {
+                    format!("vertex buffer {number} has one element for 0 instances; 1 is the least")
+                }
+                _ => return None,
+            };
+            Some(DrawFault { at: DrawPart::VertexBuffer(number), message, first: None })
+        })
+    }
+}
+
+/// What reading a shader's attributes out of the buffers of a draw source asks of the device. Attributes that don't fit ask for nothing.
+#[must_use]
+pub fn vertex_needs(inputs: &[VertexInput], brought: &DrawInterface) -> Vec<Need> {
+    let mut needs = Vec::new();
+    let mut need = |kind| {
+        let need = Need { kind, place: "".into() };
+        if !needs.contains(&need) {
+            needs.push(need);
+        }
+    };
+    for input in inputs {
+        let Ok(locations) = brought.locations(input) else { continue };
+        for BroughtLocation { location, buffer, offset, format } in locations {
+            if !format.is_on_every_device() {
+                need(NeedKind::VertexFormat { format, name: input.name.as_str().into() });
+            }
+            let Some(VertexBuffer { stride, rate }) = brought.vertex_buffers.get(buffer as usize).copied() else {
+                continue;
+            };
+            let limits = [
+                (
+                    Limit::VertexAttributes,
+                    u64::from(location) + 1,
+                    "the locations of its vertex attributes go up to",
+                    location,
+                ),
+                (Limit::VertexBuffers, u64::from(buffer) + 1, "its vertex buffers go up to", buffer),
+                (Limit::VertexOffset, u64::from(offset), "the offset of a vertex attribute is", offset),
+                (Limit::VertexStride, u64::from(stride), "the bytes from vertex to vertex are", stride),
+            ];
+            for (limit, value, what, said) in limits {
+                if value > limit.least() {
+                    need(NeedKind::Limit { limit, value, what: format!("{what} {said}").into() });
+                }
+            }
+            if matches!(rate, VertexRate::Instance { divisor: 2.. }) {
+                need(NeedKind::Feature { name: DIVISOR, what: "a vertex attribute that several instances share" });
+            }
+        }
+    }
+    needs
+}
+
+impl AttributeMisfit {
+    /// What should be done about it in the shader; `None`: nothing is known.
+    #[must_use]
+    pub fn help(self, input: &VertexInput) -> Option<String> {
+        Some(match self {
+            AttributeMisfit::Unknown => return None,
+            AttributeMisfit::Component => {
+                "attributes of a draw source begin a location: leave `component` out".to_owned()
+            }
+            AttributeMisfit::Format(format) => {
+                let types = match format.component() {
+                    Component::Float => "`float`, `vec2`, `vec3` or `vec4`",
+                    Component::Int => "`int`, `ivec2`, `ivec3` or `ivec4`",
+                    Component::Uint => "`uint`, `uvec2`, `uvec3` or `uvec4`",
+                };
+                format!("`{}` is {}, in the format {format}: {types}", input.name, format.component().words())
+            }
+            AttributeMisfit::Locations(1) => format!("`{}` is a vector, at one location", input.name),
+            AttributeMisfit::Locations(count) => format!("`{}` takes {count} locations", input.name),
+        })
+    }
+}
