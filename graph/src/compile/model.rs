@@ -199,11 +199,6 @@ impl AdaptedFrame {
         }
     }
 
-    /// In which frames operation number `op` runs.
-    pub(super) fn cadence(&self, op: u32) -> &Cadence {
-        self.cadences.get(op as usize).unwrap_or(&Cadence::Always)
-    }
-
     /// The uses of operation number `op`.
     pub(super) fn uses(&self, op: u32) -> &[Use] {
         let Range { start, end } = self.ops[op as usize].uses;

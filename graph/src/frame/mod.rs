@@ -40,7 +40,7 @@ pub use index::{BufferIndex, ImageIndex, Resource};
 pub use jitter::{Jitter, LONGEST as LONGEST_JITTER};
 pub use note_kind::NoteKind;
 pub use output::Output;
-pub use param::ParamValue;
+pub use param::{FrameValue, ParamValue};
 pub(crate) use part::TargetShape;
 pub use pass::Pass;
 pub use raster::{BlendEquation, DepthBias, RasterState};

@@ -5,10 +5,11 @@ use crate::testing::plans::{compiled, image, on, refused};
 use framewright_graph::compile::{Compiler, Options, Reuse};
 use framewright_graph::device::{MemoryEstimate, Profile, Queues};
 use framewright_graph::expand::Inputs;
-use framewright_graph::frame::{Cadence, Frame, Stereo};
+use framewright_graph::frame::{Cadence, Frame, FrameValue, ParamValue, Stereo};
 use framewright_graph::plan::{AttachmentKind, NoteKind, Plan, Role, Step, Work};
 use framewright_graph::verify::{Rule, verify};
 use framewright_graph::vulkan::{Layout, LoadOp, StoreOp};
+use std::sync::Arc;
 
 /// A pipeline of a map that `draw` draws and `show` samples.
 fn map(samples: u32, run: &str, more: &str) -> String {
@@ -199,11 +200,13 @@ fn do_9_several_queues_and_two_eyes() {
 #[test]
 fn do_9_a_change_of_run_is_compiled_anew() {
     let [one, other] = ["run: Once,", "run: Every(2),"].map(|run| right(&map(1, run, ""), &INPUTS));
-    let device = crate::testing::parts::device();
-    let mut compiler = Compiler::new(device.clone(), Options::default());
+    let device = Arc::new(crate::testing::parts::device());
+    let mut compiler = Compiler::new();
     let mut compile = |frame: &Frame| {
-        let (plan, reuse) = compiler.compile(frame, &mut MemoryEstimate(&device)).expect("it is valid");
-        (plan.clone(), reuse)
+        let memory = &mut MemoryEstimate(&device);
+        let plan = compiler.compile(&Arc::new(frame.clone()), &device, memory, &Options::default());
+        let plan = plan.expect("it is valid").clone();
+        (plan, compiler.reuse())
     };
     compile(&one);
     let (plan, reuse) = compile(&other);
@@ -226,7 +229,7 @@ fn do_9_the_checker_walks_without_what_is_left_out() {
         barriers.for_each(|barrier| barrier.old_layout = Layout::Undefined);
     };
     let forgets = rules(&forget);
-    assert!(matches!(forgets[..], [Rule::Undefined { .. }]), "{forgets:?}");
+    assert!(matches!(forgets[..], [Rule::Uninitialised { .. }]), "{forgets:?}");
     let always = rules(&|plan| {
         forget(plan);
         plan.steps[0].run = Cadence::Always;
@@ -310,4 +313,38 @@ fn do_9_a_forwarded_image_is_no_way_around_the_rules() {
     assert!(compiled(&right(text, &Inputs { set: &set(&[("on", "true")]), ..INPUTS })).steps.len() > 2);
     let forwarded = refused_text(text);
     assert!(forwarded.contains("`draw` runs once, and writes") && forwarded.contains("`more`"), "{forwarded}");
+}
+
+/// A full-screen pass whose parameter `exposure` is this, and what else the pipeline declares.
+fn exposed(exposure: &str, settings: &str) -> String {
+    map(1, "", "").replace(r#""exposure": 1.0"#, &format!(r#""exposure": {exposure}"#)).replace("settings: [", &format!("settings: [{settings}"))
+}
+
+#[test]
+fn do_9_the_frame_s_number_and_time_are_parameters() {
+    let plan = planned(&exposed(r#""time""#, ""));
+    let value = |plan: &Plan| step(plan, "show").work.passes()[0].params[0].value.clone();
+    assert_eq!(value(&plan), ParamValue::OfFrame(FrameValue::Time));
+    let json = serde_json::to_string(&plan).expect("a Plan is written");
+    assert!(json.contains(r#"{"name":"exposure","value":"time"}"#), "{json}");
+    assert_eq!(serde_json::from_str::<Plan>(&json).expect("it is read"), plan);
+    assert!(plan.tree().contains("exposure = time"), "{}", plan.tree());
+    // What the pipeline calls so itself is that.
+    let own = planned(&exposed(r#""time""#, r#"(name: "time", value: Number(default: 3.0)), "#));
+    assert_eq!(value(&own), ParamValue::Number(3.0));
+    // Another value, and no other Plan.
+    let constant = planned(&exposed("2.0", ""));
+    assert_eq!(constant.differs_beyond_values(&plan), None);
+}
+
+#[test]
+fn do_9_the_frame_s_number_and_time_stand_alone_and_in_parameters_alone() {
+    let integer = wrong(&exposed(r#""frame""#, ""), &INPUTS);
+    assert!(integer.contains("E0807") || integer.contains("can't be `frame`"), "{integer}");
+    assert!(integer.contains("`frame` is a `uint`, and `time` a `float`"), "{integer}");
+    let sum = wrong(&exposed(r#""time + 1.0""#, ""), &INPUTS);
+    assert!(sum.contains("E0311") && sum.contains("`time` is another value in each frame"), "{sum}");
+    assert!(sum.contains("it stands alone in `params`"), "{sum}");
+    let size = wrong(&map(1, "", "").replace("Fixed(64, 64)", r#"Fixed("frame", 64)"#), &INPUTS);
+    assert!(size.contains("E0311") && size.contains("`frame` is another value in each frame"), "{size}");
 }

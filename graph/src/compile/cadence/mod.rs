@@ -6,5 +6,15 @@
 mod check;
 mod keep;
 
+use super::model::AdaptedFrame;
+use crate::frame::Cadence;
+
 pub(super) use check::check;
 pub(super) use keep::keep;
+
+impl AdaptedFrame {
+    /// In which frames operation number `op` runs.
+    pub(super) fn cadence(&self, op: u32) -> &Cadence {
+        self.cadences.get(op as usize).unwrap_or(&Cadence::Always)
+    }
+}
