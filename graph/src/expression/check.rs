@@ -66,7 +66,7 @@ struct Operand {
 #[derive(Clone, Copy)]
 enum Name {
     Bound(Bound),
-    /// Reported where its declaration was read.
+    /// Reported where its declaration was read, or here with all that can be said.
     Reported,
     /// Reported here: the number of the mistake.
     Unknown(usize),
@@ -94,7 +94,7 @@ impl Check<'_> {
                     (Some(format), _) => Name::Bound(Bound::Format(format)),
                     (None, Some(value)) => {
                         self.errors.push(of_frame(&self.program, value, range.clone()));
-                        Name::Unknown(self.errors.len() - 1)
+                        Name::Reported
                     }
                     (None, None) => {
                         let message = format!("there is nothing named {}", shown(name));

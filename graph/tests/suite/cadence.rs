@@ -181,7 +181,7 @@ fn do_9_several_queues_and_two_eyes() {
             (name: "screen", format: R8G8B8A8_UNORM, size: Output, per_eye: true)],
          passes: [
             (name: "draw", run: Every(2), draw: Objects(Opaque), shader: "lit", color: [(image: "map", clear: (0, 0, 0, 1))]),
-            (name: "halve", run: Every(count: 2, at: 1), dispatch: "halve", groups: Cover("half"), sample: {"source": "map"}, storage: {"target": "half"}),
+            (name: "halve", run: Every(count: 2, at: 1), dispatch: "halve", groups: Texels("half"), sample: {"source": "map"}, storage: {"target": "half"}),
             (name: "show", draw: FullScreen("copy"), sample: {"source": "half"}, color: ["screen"])], outputs: ["screen"])"#;
     for stereo in [Stereo::Off, Stereo::MultiPass, Stereo::Multiview] {
         let frame = match stereo {
@@ -229,7 +229,7 @@ fn do_9_the_checker_walks_without_what_is_left_out() {
         barriers.for_each(|barrier| barrier.old_layout = Layout::Undefined);
     };
     let forgets = rules(&forget);
-    assert!(matches!(forgets[..], [Rule::Uninitialised { .. }]), "{forgets:?}");
+    assert!(matches!(forgets[..], [Rule::LostWrite { .. }]), "{forgets:?}");
     let always = rules(&|plan| {
         forget(plan);
         plan.steps[0].run = Cadence::Always;
@@ -279,11 +279,12 @@ fn do_9_mistakes() {
     let outputs = map(1, "", "").replace(r#"(name: "show","#, r#"(name: "show", run: Every(2),"#);
     let outputs = refused_text(&outputs);
     assert!(outputs.contains("`show` runs every 2 frames, and writes `screen`, which is an output"), "{outputs}");
-    for (lifetime, what) in [
-        ("History", "has a history, which each frame writes anew"),
-        ("Imported(before: Undefined)", "is handed in"),
+    let past = r#"(name: "past", custom: "past", reads: [(image: "map", previous: 1)], side_effect: true),"#;
+    for (lifetime, more, what) in [
+        ("History", past, "has a history, which each frame writes anew"),
+        ("Imported(before: Undefined)", "", "is handed in"),
     ] {
-        let text = map(1, "run: Once,", "").replace("size: Fixed(64, 64),", &format!("size: Fixed(64, 64), lifetime: {lifetime},"));
+        let text = map(1, "run: Once,", more).replace("size: Fixed(64, 64),", &format!("size: Fixed(64, 64), lifetime: {lifetime},"));
         let refused = refused_text(&text);
         assert!(refused.contains(what), "{refused}");
     }
@@ -330,7 +331,7 @@ fn do_9_the_frame_s_number_and_time_are_parameters() {
     assert_eq!(serde_json::from_str::<Plan>(&json).expect("it is read"), plan);
     assert!(plan.tree().contains("exposure = time"), "{}", plan.tree());
     // What the pipeline calls so itself is that.
-    let own = planned(&exposed(r#""time""#, r#"(name: "time", value: Number(default: 3.0)), "#));
+    let own = planned(&exposed(r#""time""#, r#"(name: "time", value: Number(default: 3.0, min: 0.0, max: 9.0)), "#));
     assert_eq!(value(&own), ParamValue::Number(3.0));
     // Another value, and no other Plan.
     let constant = planned(&exposed("2.0", ""));
