@@ -307,7 +307,8 @@ impl Executor {
         let told = self.first_frame + number;
         let (gpu, plan, physical) = (&self.gpu, &self.plan, &self.prepared.physical);
         let clock = self.runs.clock(told);
-        let frame = Frame { gpu, plan, physical, sets: &self.sets, number, told, left_out: self.runs.left_out(), clock };
+        let frame =
+            Frame { gpu, plan, physical, sets: &self.sets, number, told, left_out: self.runs.left_out(), clock };
         let extras = FrameExtras { imports: &self.imports, readbacks: &self.readbacks };
         (&mut self.frames, frame, &self.prepared, extras)
     }

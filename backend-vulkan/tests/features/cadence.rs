@@ -2,7 +2,8 @@
 //! (DO-9).
 
 use crate::frames::{
-    Small, Uses, copy, dispatch, draw, everywhere, frame, layer, library, on_each_driver, planned, texels, to_words, words,
+    Small, Uses, copy, dispatch, draw, everywhere, frame, layer, library, on_each_driver, planned, texels, to_words,
+    words,
 };
 use crate::testing::Nothing;
 use framewright_graph::compile::Options;
@@ -155,7 +156,9 @@ fn do_9_a_name_is_dirty_until_a_frame_was_drawn() {
         executor.set_dirty("sky").expect("a pass waits for it");
         executor.set_dirty("sky").expect("it may be said twice");
         assert_eq!([shows(executor), shows(executor)], [3, 3]);
-        let Error::BadResource { what } = executor.set_dirty("ground").expect_err("no pass waits for it") else { panic!() };
+        let Error::BadResource { what } = executor.set_dirty("ground").expect_err("no pass waits for it") else {
+            panic!()
+        };
         assert_eq!(what, "no pass runs when `ground` is dirty; passes wait for `sky`, `sky`".replace(", `sky`", ""));
         executor.run_all();
         assert_eq!([shows(executor), shows(executor)], [5, 5]);

@@ -198,7 +198,12 @@ fn a_device_with_one_queue_runs_what_was_compiled_for_one_that_hands_images_over
 /// Steps that are left out keep their barriers, waits and hand-overs (DO-9).
 #[test]
 fn do_9_steps_that_are_left_out_wait_and_hand_over_all_the_same() {
-    let runs = [Cadence::Once, Cadence::Every { count: 3, at: 1 }, Cadence::Every { count: 2, at: 1 }, Cadence::Every { count: 2, at: 0 }];
+    let runs = [
+        Cadence::Once,
+        Cadence::Every { count: 3, at: 1 },
+        Cadence::Every { count: 2, at: 1 },
+        Cadence::Every { count: 2, at: 0 },
+    ];
     on_each_driver(|device| {
         for (mut frame, sharing, more) in
             [(beside(), Sharing::Concurrent, 0), (handed_over(), Sharing::Exclusive, 20_000)]
