@@ -495,6 +495,21 @@ FramewrightStatus framewright_renderer_bind_set(FramewrightRenderer *renderer,
 FramewrightStatus framewright_renderer_prepare(FramewrightRenderer *renderer,
                                                FramewrightChange *change);
 
+// Says that what passes with `run: WhenDirty("name")` write is out of date: they run in the next frame. A name that no pass of the Plan
+// waits for is `FRAMEWRIGHT_STATUS_MISUSE`. Where anything changed, it is planned first.
+FramewrightStatus framewright_renderer_set_dirty(FramewrightRenderer *renderer, const char *name);
+
+// Has all passes run in the next frame, as in the first one, also those that run once.
+FramewrightStatus framewright_renderer_run_all(FramewrightRenderer *renderer);
+
+// Gives the next frame a number, by which passes go that run every few frames. Frames are counted on from there; without this call they are
+// counted from 0. Where anything changed, it is planned first.
+FramewrightStatus framewright_renderer_set_frame_number(FramewrightRenderer *renderer, uint64_t number);
+
+// Sets the time of frames from the next one on, in seconds: `time` in parameters of passes. Without this call it is a sixtieth of the frame's
+// number. Where anything changed, it is planned first.
+FramewrightStatus framewright_renderer_set_time(FramewrightRenderer *renderer, double seconds);
+
 // Draws a frame and waits until the device is done. `frame` is told its number, from 0, unless it is NULL.
 FramewrightStatus framewright_renderer_frame(FramewrightRenderer *renderer, uint64_t *frame);
 

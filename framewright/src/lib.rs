@@ -32,6 +32,7 @@ mod assets;
 mod choices;
 mod error;
 mod files;
+mod frame_runs;
 mod options;
 mod pipeline;
 mod renderer;

@@ -30,6 +30,8 @@ impl Executor {
     /// - Pipelines of shaders that ask for `frag_coord()`, if their images hold both eyes' pictures side by side and change their
     ///   size. The device keeps one such pipeline for each size.
     ///
+    /// All passes run in the next frame, as in the first one, if a pass that doesn't run in every frame has other values.
+    ///
     /// No device memory is allocated when another part of an image is in use.
     ///
     /// # Errors
@@ -56,6 +58,7 @@ impl Executor {
             }
         }
         self.prepared.forget_commands();
+        self.runs.change(&self.plan, plan);
         self.plan.clone_from(plan);
         Ok(())
     }

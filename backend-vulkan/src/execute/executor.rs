@@ -1,5 +1,6 @@
 //! Executing a Plan, frame by frame.
 
+use super::frame_runs::FrameRuns;
 use super::frame_slot::FrameExtras;
 use super::frames::Frames;
 use super::import::Import;
@@ -47,6 +48,8 @@ pub struct Executor {
     /// Texels from files, until they are uploaded.
     staged: Vec<StagedTexture>,
     pub(crate) initialised: bool,
+    /// Which steps of the next frame run.
+    pub(super) runs: FrameRuns,
 }
 
 impl Executor {
@@ -126,6 +129,7 @@ impl Executor {
             uses,
             staged: stage_textures(gpu, plan, textures)?,
             initialised: false,
+            runs: FrameRuns::default(),
         })
     }
 
@@ -150,6 +154,7 @@ impl Executor {
         let number = self.next_frame(&[])?;
         let (frames, frame, prepared, extras) = self.parts(number);
         frames.submit(&frame, prepared, &mut GuardedSource(source), &extras, &Submission::default())?;
+        self.runs.recorded();
         Ok(self.first_frame + number)
     }
 
@@ -170,6 +175,7 @@ impl Executor {
         let number = self.next_frame(among.images)?;
         let (frames, frame, prepared, extras) = self.parts(number);
         frames.submit(&frame, prepared, &mut GuardedSource(source), &extras, among)?;
+        self.runs.recorded();
         Ok(self.first_frame + number)
     }
 
@@ -200,6 +206,7 @@ impl Executor {
         let number = self.next_frame(images)?;
         let (frames, frame, prepared, extras) = self.parts(number);
         frames.record_into((commands, done), &frame, prepared, &mut GuardedSource(source), &extras)?;
+        self.runs.recorded();
         Ok(self.first_frame + number)
     }
 
@@ -211,14 +218,50 @@ impl Executor {
     }
 
     /// Takes back a frame that [`Executor::record_into`] recorded and that the program never submitted: nothing waits for it. What it
-    /// was to leave for later frames isn't there.
+    /// was to leave for later frames isn't there: all steps run in the next frame.
     ///
     /// # Safety
     /// Its command buffer must never have been submitted, and must not be.
     pub unsafe fn discard(&mut self, frame: u64) {
         if let Some(own) = frame.checked_sub(self.first_frame) {
             self.frames.discard(own);
+            self.runs.run_all();
         }
+    }
+
+    /// Says that what passes with `run: WhenDirty("name")` write is out of date: they run in the next frame. A name stays dirty until a
+    /// frame was submitted, or recorded for the program to submit.
+    ///
+    /// # Errors
+    /// [`Error::BadResource`] if no pass of the Plan waits for this name.
+    pub fn set_dirty(&mut self, name: &str) -> Result<(), Error> {
+        self.runs.set_dirty(&self.plan, name)
+    }
+
+    /// Has all passes run in the next frame, as in the first one, also those that run once.
+    pub fn run_all(&mut self) {
+        self.runs.run_all();
+    }
+
+    /// Gives the next frame a number of the program's: passes that run every few frames go by it, and it is `frame` in parameters. Frames are counted on from there, and
+    /// begin anew with 0 behind the largest number. Without it a frame has the number that [`Executor::frames`] tells before it.
+    pub fn set_frame_number(&mut self, number: u64) {
+        self.runs.set_number(self.frames(), number);
+    }
+
+    /// Sets the time of frames from the next one on, in seconds: `time` in parameters of passes. Without it, it is a sixtieth of the frame's
+    /// number.
+    ///
+    /// # Errors
+    /// [`Error::BadResource`] if it is no finite number.
+    pub fn set_time(&mut self, seconds: f64) -> Result<(), Error> {
+        self.runs.set_time(seconds)
+    }
+
+    /// The number by which passes of the next frame go that run every few frames.
+    #[must_use]
+    pub fn frame_number(&self) -> u64 {
+        self.runs.number(self.frames())
     }
 
     /// Waits for the oldest frame on its way, if as many are as may be.
@@ -258,6 +301,7 @@ impl Executor {
         self.ready()?;
         let number = self.frames.next();
         self.prepared.prepare_frame(&self.gpu, &self.plan, number)?;
+        self.runs.begin(&self.plan, self.first_frame + number);
         Ok(number)
     }
 
@@ -265,7 +309,9 @@ impl Executor {
     fn parts(&mut self, number: u64) -> (&mut Frames, Frame<'_>, &PreparedPlan, FrameExtras<'_>) {
         let told = self.first_frame + number;
         let (gpu, plan, physical) = (&self.gpu, &self.plan, &self.prepared.physical);
-        let frame = Frame { gpu, plan, physical, sets: &self.sets, number, told };
+        let clock = self.runs.clock(told);
+        let frame =
+            Frame { gpu, plan, physical, sets: &self.sets, number, told, left_out: self.runs.left_out(), clock };
         let extras = FrameExtras { imports: &self.imports, readbacks: &self.readbacks };
         (&mut self.frames, frame, &self.prepared, extras)
     }

@@ -41,6 +41,7 @@ impl Executor {
         self.first_frame = before.frames();
         self.missing = before.imported();
         self.sets.take_over(&before.sets);
+        self.runs.go_on(&before.runs);
         if !before.initialised {
             return Ok(Vec::new());
         }

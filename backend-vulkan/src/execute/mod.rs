@@ -4,6 +4,7 @@ mod change;
 mod exchange;
 mod executor;
 mod external;
+mod frame_runs;
 mod frame_slot;
 mod frames;
 mod import;

@@ -1,6 +1,6 @@
 //! The bytes of a pass's parameter block.
 
-use framewright_graph::frame::ParamValue;
+use framewright_graph::frame::{FrameValue, ParamValue};
 use framewright_graph::plan;
 use framewright_graph::shader::{Block, MatrixLayout, Member, PARAMS, ParamScalar, ParamType};
 
@@ -21,8 +21,46 @@ pub(crate) fn fill(block: &Block, params: &[plan::Param]) -> Result<Vec<u8>, Str
     Ok(bytes)
 }
 
+/// The values of a block that each frame has its own of, and where they lie in it. The block was filled with these parameters.
+pub(crate) fn frame_values(block: &Block, params: &[plan::Param]) -> Vec<(u64, FrameValue)> {
+    let mut found = Vec::new();
+    for member in &block.members {
+        let given = params.iter().find(|it| *it.name == *member.name);
+        let visited = given.map(|given| {
+            for_each_component(member, &given.value, |place, _, component| {
+                if let ParamValue::OfFrame(value) = component {
+                    found.push((place as u64, *value));
+                }
+                Some(())
+            })
+        });
+        debug_assert!(visited.is_none_or(|it| it.is_ok()), "the block was filled");
+    }
+    found
+}
+
 /// Writes a value where its member lies in a block.
 fn write(bytes: &mut [u8], member: &Member, value: &ParamValue) -> Result<(), String> {
+    let name = &member.name;
+    let mut outside = false;
+    for_each_component(member, value, |place, scalar, component| {
+        let word = word(scalar, component)?;
+        match bytes.get_mut(place..place.saturating_add(4)) {
+            Some(bytes) => bytes.copy_from_slice(&word),
+            None => outside = true,
+        }
+        Some(())
+    })?;
+    if outside { Err(format!("`{name}` lies outside its block")) } else { Ok(()) }
+}
+
+/// Calls `visit` with the components of a member's value: where each lies in the block, and its type. `None` of it is a value that the
+/// type can't hold.
+fn for_each_component(
+    member: &Member,
+    value: &ParamValue,
+    mut visit: impl FnMut(usize, ParamScalar, &ParamValue) -> Option<()>,
+) -> Result<(), String> {
     let Member { name, ty, offset, matrix } = member;
     let misfit = || format!("`{name}` is a {ty}, and {value} is none");
     let known = ParamType::of(ty).ok_or_else(misfit)?;
@@ -31,10 +69,7 @@ fn write(bytes: &mut [u8], member: &Member, value: &ParamValue) -> Result<(), St
         for (row, component) in (0_u32..).zip(components) {
             let (line, at) = if row_major { (row, column) } else { (column, row) };
             let place = offset.saturating_add(line.saturating_mul(stride)).saturating_add(4 * at) as usize;
-            bytes
-                .get_mut(place..place.saturating_add(4))
-                .ok_or_else(|| format!("`{name}` lies outside its block"))?
-                .copy_from_slice(&word(known.scalar, component).ok_or_else(misfit)?);
+            visit(place, known.scalar, component).ok_or_else(misfit)?;
         }
     }
     Ok(())
@@ -49,6 +84,8 @@ fn word(scalar: ParamScalar, value: &ParamValue) -> Option<[u8; 4]> {
             i32::try_from(*value).map(f64::from).or_else(|_| u32::try_from(*value).map(f64::from)).ok()?
         }
         ParamValue::Number(value) => *value,
+        // Each frame writes its own.
+        ParamValue::OfFrame(value) => return value.fits(scalar).then_some([0; 4]),
         ParamValue::List(_) => return None,
     };
     match scalar {

@@ -9,7 +9,7 @@ use crate::gpu::Gpu;
 use crate::memory::{Image, RawBuffer};
 use crate::resources::ProgramSets;
 use ash::vk;
-use framewright_graph::frame::EyeForm;
+use framewright_graph::frame::{EyeForm, FrameValue, ParamValue};
 use framewright_graph::plan::{BufferId, ImageBarrier, ImageId, Plan, Side, Step};
 use framewright_graph::vulkan::{Layout, Subresources};
 use std::sync::Arc;
@@ -25,9 +25,56 @@ pub(crate) struct Frame<'f> {
     pub(crate) number: u64,
     /// The number by which the program knows it. Preparing, which shows the program nothing, has none.
     pub(crate) told: u64,
+    /// By step, whether it is left out; empty: none is.
+    pub(crate) left_out: &'f [bool],
+    /// What its parameters may be of.
+    pub(crate) clock: FrameClock,
+}
+
+/// The values that each frame has its own of.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct FrameClock {
+    /// The frame's number.
+    pub(crate) frame: u64,
+    /// Its time in seconds.
+    pub(crate) seconds: f64,
+}
+
+impl FrameClock {
+    /// A parameter as a pass that the program records gets it.
+    pub(crate) fn resolved(self, value: &ParamValue) -> ParamValue {
+        match value {
+            ParamValue::OfFrame(FrameValue::Frame) => ParamValue::Integer(i64::from(self.number())),
+            ParamValue::OfFrame(FrameValue::Time) => ParamValue::Number(self.seconds),
+            ParamValue::List(values) => ParamValue::list(values.iter().map(|value| self.resolved(value))),
+            ParamValue::Bool(_) | ParamValue::Integer(_) | ParamValue::Number(_) => value.clone(),
+        }
+    }
+
+    /// A value as a shader gets it.
+    pub(crate) fn word(self, value: FrameValue) -> [u8; 4] {
+        #[allow(clippy::cast_possible_truncation, reason = "shaders compute in 32 bits")]
+        let seconds = self.seconds as f32;
+        match value {
+            FrameValue::Frame => self.number().to_ne_bytes(),
+            FrameValue::Time => seconds.to_ne_bytes(),
+        }
+    }
+
+    /// The number of the frame in 32 bits, which begins anew with 0 behind the largest.
+    fn number(self) -> u32 {
+        #[allow(clippy::cast_possible_truncation, reason = "it begins anew")]
+        let number = self.frame as u32;
+        number
+    }
 }
 
 impl Frame<'_> {
+    /// Whether the work of a step is recorded.
+    pub(crate) fn runs(&self, step: usize) -> bool {
+        !self.left_out.get(step).is_some_and(|out| *out)
+    }
+
     /// The image on the device that stands for a Plan's image.
     pub(crate) fn image(&self, image: ImageId) -> &Arc<Image> {
         self.physical.image(image, self.number)

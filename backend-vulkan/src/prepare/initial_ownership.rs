@@ -84,6 +84,7 @@ pub(crate) fn initial_queue(plan: &Plan, uses: &ResourceUses, resource: Resource
 #[cfg(test)]
 mod tests {
     use super::*;
+    use framewright_graph::frame::Cadence;
     use framewright_graph::plan::{
         Cause, DeviceUsed, Fill, FirstContents, Hazard, Image, Role, Side, Step, StepId, Totals, Work,
     };
@@ -147,7 +148,7 @@ mod tests {
         let target = Side::Image { image: ImageId(0), range: mip(level), extent: [1; 3], layout: LAYOUT };
         let work = Work::Fill(Fill { name: None, cause: Cause::Written(None), target, value: FillValue::Bits([0; 4]) });
         let (waits, memory_barriers, releases) = (Vec::new(), Vec::new(), Vec::new());
-        Step { queue, waits, memory_barriers, image_barriers, work, releases }
+        Step { queue, run: Cadence::Always, waits, memory_barriers, image_barriers, work, releases }
     }
 
     fn barrier(level: u32, old_layout: Layout, ownership: Option<[Queue; 2]>) -> ImageBarrier {

@@ -26,12 +26,12 @@ mod variant;
 pub(crate) use batches::{Batch, batches};
 pub(crate) use check::{Refusals, check, check_alone};
 pub(crate) use command_list::{
-    Bindings, Command, CommandList, DispatchCommand, DrawCommand, DrawCounts, DrawnVertices, Faces, OwnDraw,
-    ScopeCommand, WorkgroupCount,
+    Bindings, Command, CommandList, DispatchCommand, DrawCommand, DrawCounts, DrawnVertices, Faces, FrameParam,
+    OwnDraw, ScopeCommand, WorkgroupCount,
 };
 pub(crate) use descriptions::{buffer_descriptor, cycle, descriptor, part};
 pub(crate) use draw_target::{DrawTarget, scissor, viewport};
-pub(crate) use frame::Frame;
+pub(crate) use frame::{Frame, FrameClock};
 pub(crate) use initial_ownership::{InitialOwner, initial_owners, initial_queue};
 pub(crate) use pass::{PassState, PreparedDraw};
 pub(crate) use physical::PhysicalResources;

@@ -1,5 +1,6 @@
 //! The set that belongs to a pass: its images and buffers by the shader's names, and the block `params`.
 
+use super::command_list::FrameParam;
 use super::descriptions::part;
 use super::frame::Frame;
 use super::rings::RingCache;
@@ -102,6 +103,13 @@ impl PassSets {
         self.params.as_ref().map(|(block, _)| filled(gpu, block, pass)).transpose()
     }
 
+    /// The values of the block `params` of `pass` that each frame has its own of, and where each lies in which buffer.
+    pub(super) fn frame_params(&self, pass: &plan::Pass) -> Vec<FrameParam> {
+        let Some((block, filled)) = &self.params else { return Vec::new() };
+        let values = parameters::frame_values(block, &pass.params);
+        values.into_iter().map(|(offset, value)| FrameParam { buffer: filled.raw, offset, value }).collect()
+    }
+
     /// Fills the sets with other parameters. Those that they had so far must not be in use.
     pub(crate) fn take(&mut self, filled: Arc<RawBuffer>) {
         if let Some((_, params)) = &mut self.params {
@@ -172,7 +180,8 @@ impl PassSet {
 fn filled(gpu: &Arc<Gpu>, block: &Block, pass: &plan::Pass) -> Result<Arc<RawBuffer>, Error> {
     let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
     let bytes = parameters::fill(block, &pass.params).map_err(mismatch)?;
-    let usage = vk::BufferUsageFlags::UNIFORM_BUFFER;
+    // Frames may write values of their own into it.
+    let usage = vk::BufferUsageFlags::UNIFORM_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
     let mut buffer = RawBuffer::new(gpu, PARAMS, bytes.len() as u64, usage, MemoryUse::Upload)?;
     buffer.fill(&bytes)?;
     Ok(Arc::new(buffer))

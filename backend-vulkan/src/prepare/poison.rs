@@ -6,7 +6,7 @@
 //!
 //! Buffers: no such barrier exists, and the barrier that hands over the memory may stand before an earlier step. So a buffer
 //! is filled right before the first step of its lifetime, after all that the Plan orders before that step. The fill is made
-//! visible to that step. So is a buffer that a step replaces: a promise that all of it is written is false where poison stays.
+//! visible to that step. So is a buffer that a step replaces in every frame: a promise that all of it is written is false where poison stays.
 //!
 //! Neither makes any write available that the Plan doesn't. So a poisoned frame shows the same picture exactly if nobody
 //! reads what was not written, and if the Plan's barriers order memory that changes hands.
@@ -29,7 +29,8 @@ const WORD: u32 = 0xDEAD_BEEF;
 /// Adds the barriers of the step number `index` with the poison between their scopes.
 pub(super) fn push_poisoned_barriers(list: &mut CommandList, frame: &Frame<'_>, index: usize, step: &Step) {
     let images: Vec<_> = step.image_barriers.iter().filter(|barrier| takes_into_use(frame, barrier)).collect();
-    let poisoned = |buffer: &&Buffer| begins(buffer, index) || replaces(step, buffer);
+    // Where a step is left out, what it would replace stays.
+    let poisoned = |buffer: &&Buffer| begins(buffer, index) || step.run.is_always() && replaces(step, buffer);
     let buffers: Vec<_> = frame.plan.buffers.iter().filter(poisoned).collect();
     let memory = step.memory_barriers.iter().map(|barrier| {
         let recorded = memory_barrier(barrier);

@@ -1,7 +1,7 @@
 //! From a Plan to the objects that executing it needs, and to what its steps record.
 
 use super::command_list::CommandList;
-use super::frame::Frame;
+use super::frame::{Frame, FrameClock};
 use super::pass_set::PassSets;
 use super::physical::PhysicalResources;
 use super::step::{PreparedStep, period};
@@ -42,7 +42,16 @@ impl PreparedPlan {
         debugging: Debugging,
     ) -> Result<PreparedPlan, Error> {
         let physical = PhysicalResources::new(gpu, plan)?;
-        let frame = Frame { gpu, plan, physical: &physical, sets: ProgramSets::NONE, number: 0, told: 0 };
+        let frame = Frame {
+            gpu,
+            plan,
+            physical: &physical,
+            sets: ProgramSets::NONE,
+            number: 0,
+            told: 0,
+            left_out: &[],
+            clock: FrameClock::default(),
+        };
         let steps = prepare_steps(gpu, plan, shaders)?;
         let list = CommandList::new(plan.steps.iter().map(|step| period(&frame, step)));
         let mut prepared = PreparedPlan { physical, steps, list, debugging, first: None };
@@ -54,7 +63,16 @@ impl PreparedPlan {
     pub(crate) fn prepare_frame(&mut self, gpu: &Arc<Gpu>, plan: &Plan, number: u64) -> Result<(), Error> {
         let first = *self.first.get_or_insert(number);
         let repeats = number - first >= self.list.period;
-        let frame = Frame { gpu, plan, physical: &self.physical, sets: ProgramSets::NONE, number, told: number };
+        let frame = Frame {
+            gpu,
+            plan,
+            physical: &self.physical,
+            sets: ProgramSets::NONE,
+            number,
+            told: number,
+            left_out: &[],
+            clock: FrameClock::default(),
+        };
         let debugging = self.debugging;
         let (list, steps) = (&mut self.list, &mut self.steps);
         let mut prepare = |list: &mut CommandList, index: usize| {

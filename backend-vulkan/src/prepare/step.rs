@@ -63,6 +63,11 @@ impl PreparedStep {
                 let memory = step.memory_barriers.iter().map(memory_barrier);
                 list.push_barriers(frame.gpu, memory, step.image_barriers.iter().map(|it| frame.image_barrier(it)));
             }
+            let always = step.run.is_always();
+            list.push_unless(always, Command::BeginWork);
+            let sets = self.sets().into_iter().zip(step.work.passes());
+            let own: Vec<_> = sets.flat_map(|(sets, pass)| sets.frame_params(pass)).collect();
+            list.push_unless(own.is_empty(), Command::FrameParams(own.into()));
             match self {
                 PreparedStep::Render(made) => {
                     let mut scopes = step.work.scope().into_iter();
@@ -80,6 +85,7 @@ impl PreparedStep {
                     transfer.into_iter().for_each(|transfer| list.push(transfer));
                 }
             }
+            list.push_unless(always, Command::EndWork);
             list.push_barriers(frame.gpu, [], frame.releases(step));
             Ok(())
         })

@@ -100,7 +100,7 @@ impl<'f> CustomRecorder<'f> {
     /// A parameter that the pipeline gives the pass.
     #[must_use]
     pub fn param(&self, name: &str) -> Option<ParamValue> {
-        self.pass.params.iter().find(|param| *param.name == *name).map(|param| param.value.clone())
+        self.pass.params.iter().find(|param| *param.name == *name).map(|param| self.frame.clock.resolved(&param.value))
     }
 
     /// The images and buffers that the pass reads by transfer, in the pipeline's order.

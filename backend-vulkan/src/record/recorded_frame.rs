@@ -8,6 +8,8 @@ use std::time::Duration;
 pub(crate) struct RecordedFrame {
     /// By pass.
     pub(crate) counts: Vec<Counts>,
+    /// The steps that were left out.
+    pub(super) left_out: Vec<usize>,
     pub(super) kept: HeldResources,
     /// How long that took.
     pub(crate) took: Duration,
@@ -17,6 +19,7 @@ impl RecordedFrame {
     /// Begins another frame, which finds the memory of this one. The device must be done with the frame.
     pub(crate) fn begin(&mut self) {
         self.counts.clear();
+        self.left_out.clear();
         self.kept.begin();
     }
 

@@ -116,7 +116,7 @@ impl<'f> Recorder<'f> {
     /// A parameter that the pipeline gives the pass.
     #[must_use]
     pub fn param(&self, name: &str) -> Option<ParamValue> {
-        self.plan.params.iter().find(|param| *param.name == *name).map(|param| param.value.clone())
+        self.plan.params.iter().find(|param| *param.name == *name).map(|param| self.frame.clock.resolved(&param.value))
     }
 
     /// What pipelines of the program's own must fit to be bound here, as the pass sees its scope: in a scope with local reads the colours of

@@ -5,6 +5,7 @@ use super::bound_sets::bind_program_sets;
 use super::custom::CustomRecorder;
 use super::dispatch::DispatchRecorder;
 use super::draw_source::DrawSource;
+use super::frame_params;
 use super::observers::Observers;
 use super::recorded_frame::{Counts, RecordedFrame};
 use super::state::CommandState;
@@ -41,14 +42,19 @@ impl Recording<'_> {
     pub(crate) fn step(&mut self, commands: vk::CommandBuffer, step: usize) -> Result<(), Error> {
         let (gpu, list) = (self.frame.gpu, &self.prepared.list);
         self.observers.begin_step(commands, step);
+        let mut left_out = false;
         let unprepared = || Error::BadPlan { what: "nothing was prepared for this frame".to_owned() };
         for command in list.step(step, self.frame.turn()).ok_or_else(unprepared)? {
             match command {
+                Command::BeginWork => left_out = !self.frame.runs(step),
+                Command::EndWork => left_out = false,
+                _ if left_out => {}
                 Command::BeginLabel(label) => gpu.begin_label(commands, label),
                 Command::EndLabel => gpu.end_label(commands),
                 Command::Barriers(memory, images) => {
                     barrier_call(gpu, commands, memory.of(&list.memory), images.of(&list.images));
                 }
+                Command::FrameParams(params) => frame_params::write(gpu, commands, params, self.frame.clock),
                 Command::Transfer(transfer) => transfer.record(gpu, commands),
                 Command::BeginScope(scope) => super::scope::begin(gpu, commands, list, scope),
                 Command::LocalBarrier => super::scope::local_barrier(gpu, commands),
@@ -72,8 +78,19 @@ impl Recording<'_> {
                 }
             }
         }
+        if !self.frame.runs(step) {
+            self.leave_out(commands, step);
+        }
         self.observers.stamp(commands);
         Ok(())
+    }
+
+    /// Notes that the passes of a step were left out: each has its place in the report.
+    fn leave_out(&mut self, commands: vk::CommandBuffer, step: usize) {
+        self.recorded.left_out.push(step);
+        for _ in self.frame.plan.steps[step].work.passes() {
+            self.end_pass(commands, Counts::default());
+        }
     }
 
     /// Notes what was recorded for a pass, and when it ends.

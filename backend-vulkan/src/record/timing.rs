@@ -28,8 +28,10 @@ pub struct FrameReport {
 #[derive(Debug, Clone, PartialEq)]
 pub struct StepReport {
     /// From the end of the step before to the end of this one, its barriers included, but no wait for other queues. 0 on
-    /// queues without timestamps.
+    /// queues without timestamps, and where the step didn't run.
     pub milliseconds: f64,
+    /// Whether its work was done; its barriers were recorded all the same.
+    pub ran: bool,
     /// The passes of a rendering scope, a dispatch or a custom pass; empty for other steps.
     pub passes: Vec<PassReport>,
 }
@@ -175,18 +177,20 @@ pub(crate) fn report(
         if queues.iter().all(|(queue, ..)| *queue != batch.queue) {
             queues.push((batch.queue, step_began, step_began));
         }
-        for step in &plan.steps[batch.steps.clone()] {
+        for (step, number) in plan.steps[batch.steps.clone()].iter().zip(batch.steps.clone()) {
+            let ran = !recorded.left_out.contains(&number);
+            let between = |from, to| if ran { clock.between(from, to) } else { 0.0 };
             let mut began = step_began;
             let mut reports = Vec::new();
             for pass in step.work.passes() {
                 let ended = next();
-                let milliseconds = clock.between(began, ended);
+                let milliseconds = between(began, ended);
                 let Counts { draws, culled } = counts.next().unwrap_or_default();
                 reports.push(PassReport { name: pass.name.to_string(), draws, culled, milliseconds });
                 began = ended;
             }
             let ended = next();
-            steps.push(StepReport { milliseconds: clock.between(step_began, ended), passes: reports });
+            steps.push(StepReport { milliseconds: between(step_began, ended), ran, passes: reports });
             step_began = ended;
         }
         if let Some((_, _, end)) = queues.iter_mut().find(|(queue, ..)| *queue == batch.queue) {

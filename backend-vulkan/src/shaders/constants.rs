@@ -60,7 +60,7 @@ pub(super) fn put(module: &mut Module, values: &Constants) {
     for it in &mut module.types_global_values {
         let value = it.result_id.and_then(|id| given.get(&id)).map(|value| value.value());
         match value {
-            None | Some(ParamValue::List(_)) => {}
+            None | Some(ParamValue::List(_) | ParamValue::OfFrame(_)) => {}
             Some(ParamValue::Bool(value)) if it.class.opcode == Op::SpecConstant => {
                 it.operands = vec![Operand::LiteralBit32(value.into())];
             }

@@ -11,6 +11,7 @@ mod allocations;
 mod bindless;
 mod blending;
 mod breadcrumbs;
+mod cadence;
 mod clear_values;
 mod compute;
 mod debugging;

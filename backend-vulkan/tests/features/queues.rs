@@ -4,7 +4,7 @@ use crate::frames::{Small, Uses, dispatch, draw, frame, library, on_each_driver,
 use crate::testing::Nothing;
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::{Profile, Queues};
-use framewright_graph::frame::{Draw, Frame, Groups, ImageIndex, Pass};
+use framewright_graph::frame::{Cadence, Draw, Frame, Groups, ImageIndex, Pass};
 use framewright_graph::plan::{Plan, Queue, StepId, Totals, Wait};
 use framewright_graph::verify::verify;
 use framewright_graph::vulkan::{Format, Sharing, Stages, Subresources};
@@ -192,5 +192,33 @@ fn a_device_with_one_queue_runs_what_was_compiled_for_one_that_hands_images_over
         }
         let expected: Vec<u32> = drawn_beside().iter().map(|texel| texel + 20_000).collect();
         assert_eq!(texels(&mut executor, "shown", 0), expected);
+    });
+}
+
+/// Steps that are left out keep their barriers, waits and hand-overs (DO-9).
+#[test]
+fn do_9_steps_that_are_left_out_wait_and_hand_over_all_the_same() {
+    let runs = [
+        Cadence::Once,
+        Cadence::Every { count: 3, at: 1 },
+        Cadence::Every { count: 2, at: 1 },
+        Cadence::Every { count: 2, at: 0 },
+    ];
+    on_each_driver(|device| {
+        for (mut frame, sharing, more) in
+            [(beside(), Sharing::Concurrent, 0), (handed_over(), Sharing::Exclusive, 20_000)]
+        {
+            frame.passes.iter_mut().zip(&runs).for_each(|(pass, run)| pass.run = run.clone());
+            for frames_in_flight in [1, 3] {
+                let mut executor = executor_of(device, &frame, sharing, frames_in_flight);
+                let expected: Vec<u32> = drawn_beside().iter().map(|texel| texel + more).collect();
+                for number in 0..7 {
+                    executor.submit(&mut Nothing).expect("a frame");
+                    if frames_in_flight == 1 || number == 6 {
+                        assert_eq!(texels(&mut executor, "shown", 0), expected, "frame {number}");
+                    }
+                }
+            }
+        }
     });
 }

@@ -1,7 +1,7 @@
 //! Plans written by hand, with the memory needs of the device that is here.
 
 use framewright_graph::device::{ImageDescriptor, MemoryProvider};
-use framewright_graph::frame::{Blend, Draw, ParamValue, RasterState, Stereo};
+use framewright_graph::frame::{Blend, Cadence, Draw, ParamValue, RasterState, Stereo};
 use framewright_graph::plan::{
     Access, Attachment, AttachmentKind, AttachmentResolve, Binding, BindingKind, Cause, DeviceUsed, FORMAT_VERSION,
     Hazard, Heap, Image, ImageBarrier, ImageId, Output, Param, Pass, Placement, Plan, Queue, RenderScope, Resource,
@@ -240,6 +240,7 @@ fn render(image_barriers: Vec<ImageBarrier>, samples: u32, color: Attachment, pa
 fn step(image_barriers: Vec<ImageBarrier>, work: Work) -> Step {
     Step {
         queue: Queue::Graphics,
+        run: Cadence::Always,
         waits: Vec::new(),
         memory_barriers: Vec::new(),
         image_barriers,

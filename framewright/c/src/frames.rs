@@ -210,6 +210,67 @@ pub unsafe extern "C" fn framewright_renderer_prepare(
     }
 }
 
+/// Says that what passes with `run: WhenDirty("name")` write is out of date: they run in the next frame. A name that no pass of the Plan
+/// waits for is `FRAMEWRIGHT_STATUS_MISUSE`. Where anything changed, it is planned first.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_set_dirty(
+    renderer: *mut FramewrightRenderer,
+    name: *const c_char,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            let name = text(name, "name")?;
+            state.prepare()?;
+            Ok(state.renderer.set_dirty(name)?)
+        })
+    }
+}
+
+/// Has all passes run in the next frame, as in the first one, also those that run once.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_run_all(renderer: *mut FramewrightRenderer) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            state.renderer.run_all();
+            Ok(())
+        })
+    }
+}
+
+/// Gives the next frame a number, by which passes go that run every few frames. Frames are counted on from there; without this call they are
+/// counted from 0. Where anything changed, it is planned first.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_set_frame_number(
+    renderer: *mut FramewrightRenderer,
+    number: u64,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            state.prepare()?;
+            Ok(state.renderer.set_frame_number(number)?)
+        })
+    }
+}
+
+/// Sets the time of frames from the next one on, in seconds: `time` in parameters of passes. Without this call it is a sixtieth of the frame's
+/// number. Where anything changed, it is planned first.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_set_time(
+    renderer: *mut FramewrightRenderer,
+    seconds: f64,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            state.prepare()?;
+            Ok(state.renderer.set_time(seconds)?)
+        })
+    }
+}
+
 /// Draws a frame and waits until the device is done. `frame` is told its number, from 0, unless it is NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn framewright_renderer_frame(

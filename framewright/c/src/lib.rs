@@ -36,7 +36,8 @@ pub use device::{
 pub use frames::{
     FramewrightChoice, FramewrightSemaphore, FramewrightSubmission, framewright_renderer_discard,
     framewright_renderer_frame, framewright_renderer_prepare, framewright_renderer_record_into,
-    framewright_renderer_submit, framewright_renderer_wait,
+    framewright_renderer_run_all, framewright_renderer_set_dirty, framewright_renderer_set_frame_number,
+    framewright_renderer_set_time, framewright_renderer_submit, framewright_renderer_wait,
 };
 pub use images::{
     FramewrightState, framewright_renderer_image, framewright_renderer_image_info, framewright_renderer_import_buffers,

@@ -1,5 +1,6 @@
 //! `cull`: keeps the passes whose results reach an output, the next frame or a side effect.
 
+use super::cadence;
 use super::link::{self, FrameLinks};
 use super::validate;
 use crate::base::Diagnostic;
@@ -21,6 +22,7 @@ pub(super) fn live(frame: &Frame) -> Result<(Grids, LivePasses), Vec<Diagnostic>
     let grids = Grids::new(&frame.images, frame.passes.iter());
     let parts = Parts::new(&frame.images, frame.buffers.len(), &grids);
     let linked = link::link(frame, &parts)?;
+    cadence::check(frame, &parts)?;
     debug_assert_eq!(linked.all_are_needed, cull(frame, &parts, &linked).culled.is_empty());
     let live = match linked.all_are_needed {
         true => LivePasses { passes: (0..frame.passes.len() as u32).collect(), culled: Vec::new() },
@@ -47,7 +49,10 @@ fn cull(frame: &Frame, parts: &Parts<'_>, linked: &FrameLinks) -> LivePasses {
             continue;
         }
         passes.push(number);
-        written.iter().for_each(|part| needed[*part] = false);
+        // In other frames what was there before is needed.
+        if pass.run.is_always() {
+            written.iter().for_each(|part| needed[*part] = false);
+        }
         read.iter().for_each(|part| needed[*part] = true);
     }
     passes.reverse();

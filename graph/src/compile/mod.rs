@@ -14,6 +14,7 @@ use crate::plan::Plan;
 
 mod access_chain;
 mod adapt;
+mod cadence;
 mod cull;
 mod emit;
 mod fit;

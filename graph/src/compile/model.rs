@@ -2,7 +2,7 @@
 
 use crate::device::{BufferDescriptor, ImageDescriptor};
 use crate::frame::tracked_parts::Grid;
-use crate::frame::{EyeForm, ImageIndex, Resource, ViewIndex, allocated_extent};
+use crate::frame::{Cadence, EyeForm, ImageIndex, Resource, ViewIndex, allocated_extent};
 use crate::plan::{AttachmentKind, InsertionCause, Note};
 use crate::vulkan::{
     AccessKind, Accesses, Aspects, BufferUsage, FillValue, Filter, Format, Layout, ResolveMode, Rotation, Sharing,
@@ -146,6 +146,8 @@ pub(super) struct AdaptedFrame {
     pub(super) subresources: u32,
     /// Number of buffers among the resources.
     pub(super) buffers: u32,
+    /// In which frames each operation runs; empty if all run in each.
+    pub(super) cadences: Vec<Cadence>,
     /// The frame's outputs, in its order.
     pub(super) outputs: Vec<PhysicalIndex>,
     /// The allocated width and height of images whose size may change.

@@ -20,6 +20,8 @@ pub(super) struct AttachmentOps {
     pub(super) next: LaterUse,
     /// Whether a pass of the scope writes it.
     written: bool,
+    /// Whether its contents from before the scope are needed: it loads them, or the scope may be left out.
+    needs_before: bool,
 }
 
 /// The next use of an attachment's contents.
@@ -123,7 +125,7 @@ impl Walk<'_> {
             self.ops.push(made);
         }
         for at in first..self.ops.len() {
-            if self.ops[at].load == LoadOp::Load {
+            if self.ops[at].needs_before {
                 let AttachmentOps { target, first, .. } = self.ops[at];
                 self.each(target, |walk, subresource| walk.needed(subresource, LaterUse::Op(first)));
             }
@@ -161,10 +163,12 @@ impl Walk<'_> {
             first: NONE,
             next: LaterUse::Nobody,
             written: false,
+            needs_before: false,
         };
         for op in &scope.ops {
             let Some(used) = adapted.uses(*op).iter().find(is_it) else { continue };
             made.written |= used.writes;
+            made.needs_before |= used.reads && !adapted.cadence(*op).is_always();
             if made.first != NONE {
                 continue;
             }
@@ -175,6 +179,7 @@ impl Walk<'_> {
                 InitialContents::Clear => (LoadOp::Clear, clear_value(frame, &adapted.ops[*op as usize].kind, used)),
             };
         }
+        made.needs_before |= made.load == LoadOp::Load;
         made
     }
 

@@ -85,6 +85,8 @@ impl<'p> EntryStep<'p> {
         fields.push(("shader", code(&pass.shader)));
         let queue = self.step().map(|step| step.queue).filter(|queue| *queue != Queue::Graphics);
         fields.extend(queue.iter().map(|queue| ("queue", name_of(queue))));
+        let run = self.step().map(|step| &step.run).filter(|run| !run.is_always());
+        fields.extend(run.iter().map(|run| ("runs", ShownText(&run.to_string()).to_string())));
         fields.extend(pass.draw.iter().map(|draw| ("draw", in_plan(draw))));
         fields.extend(pass.groups.iter().map(|groups| ("workgroups", in_plan(groups))));
         fields.extend(pass.stencil.iter().map(|stencil| ("stencil", in_plan(stencil))));

@@ -6,7 +6,9 @@ use super::program::Expression;
 use super::program::{Binary, Operation, Program, shown};
 use super::types::{Type, Value, WantedTypes};
 use crate::base::{Code, Diagnostic, Span, nearest, suggestion, without_quotes};
+use crate::frame::FrameValue;
 use crate::vulkan::{Format, vulkans_name};
+use std::ops::Range;
 
 /// Binds the names of a program, and checks its types and its value's.
 pub(super) fn check(
@@ -64,7 +66,7 @@ struct Operand {
 #[derive(Clone, Copy)]
 enum Name {
     Bound(Bound),
-    /// Reported where its declaration was read.
+    /// Reported where its declaration was read, or here with all that can be said.
     Reported,
     /// Reported here: the number of the mistake.
     Unknown(usize),
@@ -88,9 +90,13 @@ impl Check<'_> {
             let bound = match self.declarations.find(name) {
                 NameMeaning::Symbol(symbol) => Name::Bound(Bound::Symbol(symbol)),
                 NameMeaning::Reported => Name::Reported,
-                NameMeaning::Unknown => match format() {
-                    Some(format) => Name::Bound(Bound::Format(format)),
-                    None => {
+                NameMeaning::Unknown => match (format(), FrameValue::named(name)) {
+                    (Some(format), _) => Name::Bound(Bound::Format(format)),
+                    (None, Some(value)) => {
+                        self.errors.push(of_frame(&self.program, value, range.clone()));
+                        Name::Reported
+                    }
+                    (None, None) => {
                         let message = format!("there is nothing named {}", shown(name));
                         let help = unknown(name, self.declarations, wanted, alone);
                         let unknown = self.program.text.mistake(Code::UNKNOWN_VALUE, range.clone(), message);
@@ -394,6 +400,13 @@ impl Check<'_> {
         let mistake = if declared.file().is_some() { mistake.label(declared, "declared here") } else { mistake };
         self.errors.push(Diagnostic { help, ..mistake });
     }
+}
+
+/// What is wrong with a value that each frame has its own of.
+fn of_frame(program: &Program, value: FrameValue, range: Range<u32>) -> Diagnostic {
+    let message = format!("`{}` is another value in each frame, and a Plan holds for all", value.word());
+    let help = "it stands alone in `params`, where the shader computes with it; let a setting decide anything else";
+    program.text.mistake(Code::FRAME_VALUE, range, message).help(help)
 }
 
 /// The help for a name that nothing has. `wanted` is the type that is wanted there, if that is known; `alone`: the name is

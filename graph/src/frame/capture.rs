@@ -3,7 +3,7 @@
 //! The passes and their pictures stay the same. The Plan doesn't: scopes are split where a copy stands between two passes, and
 //! what is copied is stored.
 
-use super::{Frame, Image, ImageIndex, Lifetime, Output, Pass, Resource, TransferUse, Work};
+use super::{Cadence, Frame, Image, ImageIndex, Lifetime, Output, Pass, Resource, TransferUse, Work};
 use crate::base::Span;
 use crate::vulkan::{Aspects, FillValue, Shape, Subresources};
 use std::sync::Arc;
@@ -75,13 +75,14 @@ impl Frame {
         Capture { pass, image: name, range, bytes, pass_index, image_index }
     }
 
-    /// The frame with these captures: each is an output behind those that the frame has, in their order.
+    /// The frame with these captures: each is an output behind those that the frame has, in their order. All passes run in each frame: a copy
+    /// between two of them would find what the later one left.
     #[must_use]
     pub fn with_captures(&self, captures: &[Capture]) -> Frame {
         let mut frame = Frame { passes: Vec::with_capacity(self.passes.len() + captures.len()), ..self.clone() };
         let mut left = captures.iter().enumerate().peekable();
         for (at, pass) in self.passes.iter().enumerate() {
-            frame.passes.push(pass.clone());
+            frame.passes.push(Pass { run: Cadence::Always, ..pass.clone() });
             while let Some((number, capture)) = left.next_if(|(_, capture)| capture.pass_index == at) {
                 let Some(image) = self.images.get(capture.image_index.0 as usize) else { continue };
                 let name = capture_name(number);

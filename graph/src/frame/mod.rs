@@ -5,6 +5,7 @@
 
 mod access;
 mod buffer_role;
+mod cadence;
 mod capture;
 pub mod change;
 pub(crate) mod check;
@@ -30,6 +31,7 @@ mod work;
 
 pub(crate) use access::{Access, Effect, VisitAccess};
 pub use buffer_role::BufferRole;
+pub use cadence::Cadence;
 pub use capture::{Capture, Captures, capture_name};
 pub use decided_property::{DecidedBy, DecidedProperty, NamedValue, Property, Subject};
 pub use declared_use::DeclaredUse;
@@ -38,7 +40,7 @@ pub use index::{BufferIndex, ImageIndex, Resource};
 pub use jitter::{Jitter, LONGEST as LONGEST_JITTER};
 pub use note_kind::NoteKind;
 pub use output::Output;
-pub use param::ParamValue;
+pub use param::{FrameValue, ParamValue};
 pub(crate) use part::TargetShape;
 pub use pass::Pass;
 pub use raster::{BlendEquation, DepthBias, RasterState};

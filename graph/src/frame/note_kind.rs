@@ -18,6 +18,8 @@ pub enum NoteKind {
     SharedByEyes,
     /// A matrix is the same for both eyes.
     SeenAlike,
+    /// Something stays from frame to frame, since its writer doesn't run in each.
+    Stays,
     /// A pass keeps what it doesn't write.
     Kept,
     /// A policy for formats isn't followed: something else fixes the format.

@@ -4,6 +4,35 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::sync::Arc;
 
+/// A value that each frame has its own of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FrameValue {
+    /// The number of the frame, a `uint` that begins anew with 0 behind its largest.
+    Frame,
+    /// The time of the frame in seconds, a `float`.
+    Time,
+}
+
+impl FrameValue {
+    /// All of them.
+    pub const ALL: [FrameValue; 2] = [FrameValue::Frame, FrameValue::Time];
+
+    /// The word for it in files and Plans.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            FrameValue::Frame => "frame",
+            FrameValue::Time => "time",
+        }
+    }
+
+    /// The value with this word.
+    pub(crate) fn named(word: &str) -> Option<FrameValue> {
+        FrameValue::ALL.into_iter().find(|value| value.word() == word)
+    }
+}
+
 /// A value for a shader parameter.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
@@ -14,6 +43,8 @@ pub enum ParamValue {
     Integer(i64),
     /// A number.
     Number(f64),
+    /// What each frame has its own of, without another Plan.
+    OfFrame(FrameValue),
     /// The components of a vector, or the columns of a matrix, each a list of components.
     List(Arc<[ParamValue]>),
 }
@@ -29,9 +60,18 @@ impl ParamValue {
     #[must_use]
     pub fn is_finite(&self) -> bool {
         match self {
-            ParamValue::Bool(_) | ParamValue::Integer(_) => true,
+            ParamValue::Bool(_) | ParamValue::Integer(_) | ParamValue::OfFrame(_) => true,
             ParamValue::Number(number) => number.is_finite(),
             ParamValue::List(values) => values.iter().all(ParamValue::is_finite),
+        }
+    }
+
+    /// Whether any of it is a value that each frame has its own of.
+    pub(crate) fn is_of_frame(&self) -> bool {
+        match self {
+            ParamValue::OfFrame(_) => true,
+            ParamValue::List(values) => values.iter().any(ParamValue::is_of_frame),
+            ParamValue::Bool(_) | ParamValue::Integer(_) | ParamValue::Number(_) => false,
         }
     }
 
@@ -54,6 +94,7 @@ impl fmt::Display for ParamValue {
             ParamValue::Bool(value) => write!(f, "{value}"),
             ParamValue::Integer(value) => write!(f, "{value}"),
             ParamValue::Number(value) => write!(f, "{value}"),
+            ParamValue::OfFrame(value) => f.write_str(value.word()),
             ParamValue::List(values) => {
                 f.write_str("(")?;
                 for (at, value) in values.iter().enumerate() {

@@ -1,7 +1,7 @@
 //! Passes of a frame, and their work.
 
 use super::{
-    BufferUse, ColorTarget, DeclaredUse, DepthTarget, ParamValue, RasterState, SampledImage, Storage, TransferUse,
+    BufferUse, Cadence, ColorTarget, DeclaredUse, DepthTarget, ParamValue, RasterState, SampledImage, Storage, TransferUse,
     ViewIndex, Work,
 };
 use crate::base::Span;
@@ -17,6 +17,8 @@ pub struct Pass {
     pub span: Span,
     /// The view that it draws for.
     pub view: ViewIndex,
+    /// In which frames it runs.
+    pub run: Cadence,
     /// The work of the pass.
     pub work: Work,
     /// Images that its shaders sample.
@@ -70,6 +72,7 @@ impl Pass {
             name: name.into(),
             span: Span::NONE,
             view: ViewIndex::default(),
+            run: Cadence::Always,
             work,
             sampled: Vec::new(),
             storage: Vec::new(),

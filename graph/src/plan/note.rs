@@ -64,7 +64,8 @@ impl NoteKind {
             | NoteKind::OtherSamples
             | NoteKind::UnknownSpirv
             | NoteKind::FirstInstance => Stage::Fit,
-            NoteKind::NoAlphaToCoverage
+            NoteKind::Stays
+            | NoteKind::NoAlphaToCoverage
             | NoteKind::NotResolved
             | NoteKind::Untouched
             | NoteKind::OneImage

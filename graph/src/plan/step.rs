@@ -1,6 +1,7 @@
 //! Steps, and the waits and barriers before each.
 
 use super::{BufferId, ImageId, Resource, StepId, Work};
+use crate::frame::Cadence;
 use crate::vulkan::{Accesses, Layout, Stages, Subresources};
 use serde::{Deserialize, Serialize};
 
@@ -11,6 +12,9 @@ use serde::{Deserialize, Serialize};
 pub struct Step {
     /// The queue it runs on.
     pub queue: Queue,
+    /// In which frames its work is done. Its waits and barriers stand in every frame.
+    #[serde(default, skip_serializing_if = "Cadence::is_always")]
+    pub run: Cadence,
     /// Steps of other queues that must have finished.
     pub waits: Vec<Wait>,
     /// Memory barriers before the work.

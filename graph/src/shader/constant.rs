@@ -34,14 +34,14 @@ pub enum ConstantValue {
 }
 
 impl ConstantValue {
-    /// The value of a pass; `None`: it is a list.
+    /// The value of a pass; `None`: it is a list, or another one in each frame.
     #[must_use]
     pub fn of(value: &ParamValue) -> Option<ConstantValue> {
         match value {
             ParamValue::Bool(value) => Some(ConstantValue::Bool(*value)),
             ParamValue::Integer(value) => Some(ConstantValue::Integer(*value)),
             ParamValue::Number(value) => Some(ConstantValue::Number(value.to_bits())),
-            ParamValue::List(_) => None,
+            ParamValue::List(_) | ParamValue::OfFrame(_) => None,
         }
     }
 

@@ -1,6 +1,6 @@
 //! The types of parameters: which values of a pipeline file they take.
 
-use crate::frame::ParamValue;
+use crate::frame::{FrameValue, ParamValue};
 use std::fmt;
 
 /// The type of a parameter: a scalar, a vector or a matrix.
@@ -141,7 +141,19 @@ impl ParamScalar {
             (ParamScalar::Int, ParamValue::Integer(number)) => i32::try_from(*number).ok().map(|_| value.clone()),
             (ParamScalar::Uint, ParamValue::Integer(number)) => u32::try_from(*number).ok().map(|_| value.clone()),
             (ParamScalar::Int | ParamScalar::Uint | ParamScalar::Bool, ParamValue::Bool(_)) => Some(value.clone()),
+            (scalar, ParamValue::OfFrame(of)) => of.fits(scalar).then(|| value.clone()),
             _ => None,
+        }
+    }
+}
+
+impl FrameValue {
+    /// Whether it is of this type.
+    #[must_use]
+    pub const fn fits(self, scalar: ParamScalar) -> bool {
+        match self {
+            FrameValue::Frame => matches!(scalar, ParamScalar::Uint),
+            FrameValue::Time => matches!(scalar, ParamScalar::Float),
         }
     }
 }

@@ -6,7 +6,8 @@
 //! image in the layout that it names (`walk`) and on its own queue (`ownership`), reads what was written (`contents`) and
 //! has its memory to itself (`memory`); and whether the Plan is well formed at all (`structure`, `barriers`, `work`,
 //! `passes`, `redraws`, `rotation`, `transfers`). The steps are walked at least twice in a row, for what
-//! crosses frames, and as often as it takes for everything with history to have been everything (`frames`).
+//! crosses frames, and as often as it takes for everything with history to have been everything (`frames`). Where steps don't run in
+//! each frame, they are walked again without these (`left_out`).
 //!
 //! The work is linear in steps, barriers and accesses: see `clocks`, `parts` and `program`.
 //! Most Plans are right, so what reports is marked `cold`, which saves 5 % of the instructions, and what is large or rare is kept
@@ -23,6 +24,7 @@ mod eyes;
 mod findings;
 mod frames;
 mod layouts;
+mod left_out;
 mod lookup;
 mod memory;
 mod names;

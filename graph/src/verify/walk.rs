@@ -5,6 +5,7 @@ use super::clocks::{Availability, Clock, Clocks, Time};
 use super::dependencies::{before_access, before_layout_change, makes_available};
 use super::findings::{Finding, Findings};
 use super::frames::Frames;
+use super::left_out::LeftOut;
 use super::memory::{Memory, MemoryEvent};
 use super::parts::{Part, SubresourceMap};
 use super::program::{Access, Barrier, Program, Span};
@@ -37,13 +38,26 @@ pub(super) struct Walk<'w, 'p, const Q: usize> {
 
 /// Walks the steps of `plan` once for each frame.
 pub(super) fn walk<'p>(plan: &'p Plan, program: &Program, frames: Frames, found: &mut Findings<'p>) {
+    let before = found.violations.len();
+    once(plan, program, &frames, &LeftOut::default(), found);
+    let with_gap = Frames { count: frames.count + 1, ..frames };
+    for left_out in LeftOut::choices(plan) {
+        // What is wrong already, where all steps run or without others, is told once.
+        if found.violations.len() == before {
+            once(plan, program, &with_gap, &left_out, found);
+        }
+    }
+}
+
+/// Walks the steps, some of which are left out.
+fn once<'p>(plan: &'p Plan, program: &Program, frames: &Frames, left_out: &LeftOut, found: &mut Findings<'p>) {
     let Some(parts) = SubresourceMap::new(plan, &program.ranges) else {
         return found.structure(None, None, "tells more parts of images apart than can be followed");
     };
     if program.several_queues {
-        Walk::<3>::new(plan, program, parts, found).all(frames);
+        Walk::<3>::new(plan, program, parts, found).all(frames, left_out);
     } else {
-        Walk::<1>::new(plan, program, parts, found).all(frames);
+        Walk::<1>::new(plan, program, parts, found).all(frames, left_out);
     }
 }
 
@@ -66,25 +80,28 @@ impl<'w, 'p, const Q: usize> Walk<'w, 'p, Q> {
         }
     }
 
-    fn all(&mut self, frames: Frames) {
+    fn all(&mut self, frames: &Frames, left_out: &LeftOut) {
         for frame in 0..frames.count {
             self.frame = frame;
             self.begin_frame();
             for step in 0..self.program.steps() {
-                self.step(StepId(step));
+                self.step(StepId(step), left_out.runs(step, frame, frames.count));
             }
             self.end_frame();
-            self.become_next(&frames);
+            self.become_next(frames);
         }
     }
 
-    fn step(&mut self, id: StepId) {
+    /// Waits and barriers stand in each frame, the work only where it `runs`.
+    fn step(&mut self, id: StepId, runs: bool) {
         let span = self.program.span(id.0);
         if Q > 1 {
             self.wait(&span);
         }
         self.barriers(id, &span);
-        self.work(id, &span);
+        if runs {
+            self.work(id, &span);
+        }
         if Q > 1 {
             self.releases(id, &span);
             self.signal(id, span.queue);

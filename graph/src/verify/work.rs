@@ -12,7 +12,7 @@ use super::parts::overlap;
 use super::program::{Builder, Program};
 use super::structure::clear_fits;
 use super::violation::{Accessed, Rule, StepName};
-use crate::frame::Draw;
+use crate::frame::{Cadence, Draw};
 use crate::plan::names::ShownText;
 use crate::plan::{
     Access, Attachment, AttachmentResolve, Image, ImageId, Pass, Plan, Queue, RenderScope, Step, StepId, Work,
@@ -30,6 +30,7 @@ pub(super) fn check<'p>(plan: &'p Plan, found: &mut Findings<'p>) -> Option<Prog
     for (id, step) in (0..).map(StepId).zip(&plan.steps) {
         let Builder { found, scopes, .. } = &mut builder;
         let mut check = Check { plan, id, queue: step.queue, found, scopes, names: &mut names, calls: &mut calls };
+        check.cadence(step);
         check.waits_and_barriers(step);
         check.step(step);
         builder.add(id, step);
@@ -70,6 +71,18 @@ impl<'p> Check<'_, 'p> {
     #[cold]
     pub(super) fn wrong_step(&mut self, what: impl Into<String>) {
         self.found.structure(Some(self.id), None, what);
+    }
+
+    /// Barriers alone stand in each frame, and a step that is left out in some runs in others.
+    fn cadence(&mut self, step: &Step) {
+        match &step.run {
+            Cadence::Always => {}
+            _ if matches!(step.work, Work::Export) => self.wrong_step("has no work, and doesn't run in each frame"),
+            Cadence::Every { count: 0 | 1, .. } => self.wrong_step("runs in a round of fewer than two frames"),
+            Cadence::Every { count, at } if at >= count => self.wrong_step("runs in a frame behind the last of its round"),
+            Cadence::WhenDirty(name) if name.is_empty() => self.wrong_step("runs when something without a name is dirty"),
+            Cadence::Once | Cadence::Every { .. } | Cadence::WhenDirty(_) => {}
+        }
     }
 
     fn step(&mut self, step: &'p Step) {

@@ -3,6 +3,7 @@
 
 mod alpha_to_coverage;
 mod both_eyes;
+mod cadence;
 mod chosen_formats;
 mod codes;
 mod compile_graphs;

@@ -270,6 +270,7 @@ fn written(value: &ParamValue) -> String {
     match value {
         ParamValue::Number(number) => format!("{number:?}"),
         ParamValue::Integer(_) | ParamValue::Bool(_) => value.to_string(),
+        ParamValue::OfFrame(value) => format!("\"{}\"", value.word()),
         ParamValue::List(values) => format!("({})", values.iter().map(written).collect::<Vec<_>>().join(", ")),
     }
 }

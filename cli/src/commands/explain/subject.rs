@@ -121,7 +121,9 @@ impl<'p> Explainer<'p> {
             NodeKind::Blit => "scales",
             NodeKind::Fill => "fills",
         };
-        line(format!("{} {kind} in step {}", code(&node.name), node.step.0), parts)
+        let run = self.plan.steps.get(node.step.0 as usize).map(|step| &step.run).filter(|run| !run.is_always());
+        let runs = run.map_or_else(String::new, |run| format!(", and runs {}", text::escape(&run.to_string())));
+        line(format!("{} {kind} in step {}{runs}", code(&node.name), node.step.0), parts)
     }
 
     /// The line of the resolve that a scope carries.

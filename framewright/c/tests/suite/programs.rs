@@ -136,6 +136,14 @@ fn wrong_calls_have_their_status_and_their_words() {
     succeeded(&program.run(&[], &[]));
 }
 
+/// Passes run when the program says so, and in the frames of its numbers (DO-9).
+#[test]
+fn do_9_a_program_in_c_says_what_is_dirty_and_numbers_frames() {
+    let Some(program) = program("framewright/c/tests/programs/frame_runs.c") else { return };
+    let pipeline = in_repository("tests/pipelines/frame_runs.ron");
+    succeeded(&program.run(&[pipeline.to_str().expect("a path in UTF-8")], &VALIDATION));
+}
+
 /// The command, which serves as a helper, where it was built.
 fn helper() -> Option<PathBuf> {
     let command = std::env::current_exe().expect("a path").parent()?.parent()?.join("framewright");

@@ -63,4 +63,10 @@ room! {
     /// Values are found from the top of the file to its end: a parameter's default can read those above it only.
     /// Move what it reads further up.
     NOT_KNOWN_YET = 310,
+
+    /// The value is another one in each frame.
+    ///
+    /// `frame` and `time` are known when a frame is recorded, and a Plan holds for all frames. So they stand alone in `params`, and the
+    /// shader computes with them. What decides more is a setting, which a program changes: that may make another Plan.
+    FRAME_VALUE = 311,
 }

@@ -122,4 +122,21 @@ room! {
     /// `writes`, `sample`, `storage` or `uniform`. Each access happens in one of the stages and in the layout; the pass names all of what
     /// is declared, reads what is read, and writes what is written. What isn't declared is waited for by all commands.
     USE_UNFIT = 721,
+
+    /// A pass says in no possible way in which frames it runs.
+    ///
+    /// `Every(count: 6, at: 2)` is one frame of six: the frames of a round are numbered from 0, below `count`.
+    CADENCE_UNFIT = 722,
+
+    /// What a pass leaves for frames in which it doesn't run is written by others too.
+    ///
+    /// Where the pass is left out, its readers would find what the others wrote. Let the others write a copy, or run in the same
+    /// frames; or declare it `lifetime: Persistent`: then readers find what was written last, whoever did.
+    KEPT_WRITTEN = 723,
+
+    /// Something can't stay for frames in which its writer doesn't run.
+    ///
+    /// Outputs, imports and images with a history are others in each frame, and `Dynamic` images change their size. Let the pass
+    /// write an image of its own, and another one copy that in each frame.
+    KEPT_UNFIT = 724,
 }

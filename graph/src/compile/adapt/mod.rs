@@ -17,6 +17,7 @@ mod versions;
 pub(super) use access::has_samples;
 pub(super) use adapter::Input;
 
+use super::cadence;
 use super::model::AdaptedFrame;
 use crate::base::Diagnostic;
 use crate::frame::Resource;
@@ -54,5 +55,10 @@ pub(super) fn adapt(input: Input<'_>) -> Result<(AdaptedFrame, Vec<Note>), Vec<D
     if input.negotiated.attached || adapter.renamed {
         access::settle_depth(&mut adapter.adapted);
     }
-    if adapter.errors.is_empty() { Ok((adapter.adapted, adapter.notes)) } else { Err(adapter.errors) }
+    let Adapter { mut adapted, mut notes, errors, .. } = adapter;
+    if !errors.is_empty() {
+        return Err(errors);
+    }
+    notes.extend(cadence::keep(frame, &mut adapted)?);
+    Ok((adapted, notes))
 }

@@ -9,7 +9,7 @@ use crate::compile::scope::Step as Grouped;
 use crate::compile::stages::Decisions;
 use crate::compile::sync::Barriers;
 use crate::device::Profile;
-use crate::frame::Frame;
+use crate::frame::{Cadence, Frame};
 use crate::plan::{DeviceUsed, FORMAT_VERSION, Plan, Step, Totals, Work};
 use std::sync::Arc;
 
@@ -44,7 +44,8 @@ fn steps(results: &StageResults<'_>) -> Vec<Step> {
     let step = |number| {
         let (memory_barriers, image_barriers) = barriers.of(number);
         let (queue, waits, work) = (queues.queue(number), queues.waits(number), work(results, number));
-        Step { queue, waits, memory_barriers, image_barriers, work, releases: Vec::new() }
+        let run = cadence(results, number);
+        Step { queue, run, waits, memory_barriers, image_barriers, work, releases: Vec::new() }
     };
     let mut steps: Vec<Step> = (0..*count).map(step).collect();
     for Transfer { from, release, to, acquire } in ownership::transfers(results) {
@@ -52,6 +53,12 @@ fn steps(results: &StageResults<'_>) -> Vec<Step> {
         steps[to as usize].image_barriers.push(acquire);
     }
     steps
+}
+
+/// In which frames the work of a step is done.
+fn cadence(results: &StageResults<'_>, number: u32) -> Cadence {
+    let op = results.scoped.steps.get(number as usize).and_then(|step| step.ops().first());
+    op.map_or(Cadence::Always, |op| results.adapted.cadence(*op).clone())
 }
 
 /// The work of a step. There may be one behind all others, which only has barriers.

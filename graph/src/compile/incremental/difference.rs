@@ -136,6 +136,7 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
         name,
         span,
         view,
+        run,
         work,
         sampled,
         storage,
@@ -161,6 +162,7 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
     let same = same_name(&old.name, name)
         && old.span == *span
         && old.view == *view
+        && old.run == *run
         && old.side_effect == *side_effect
         && old.raster == *raster
         && old.raster_span == *raster_span

@@ -205,7 +205,7 @@ fn candidate(adapted: &AdaptedFrame, chains: &[AccessChain<Option<u32>>], op: u3
     (!apart).then_some(run)
 }
 
-/// Whether two draws have the same colour attachments, and depth and stencil attachments where both have them.
+/// Whether two draws run in the same frames and have the same colour attachments, and depth and stencil attachments where both have them.
 fn meet(adapted: &AdaptedFrame, one: u32, other: u32) -> bool {
     let all = |op, role| {
         let uses = adapted.uses(op).iter().filter(move |used| used.role == role);
@@ -216,5 +216,6 @@ fn meet(adapted: &AdaptedFrame, one: u32, other: u32) -> bool {
         _ => true,
     };
     let draws = adapted.ops[one as usize].kind.draws();
+    let draws = draws && adapted.cadence(one) == adapted.cadence(other);
     draws && all(one, Role::Color).eq(all(other, Role::Color)) && same(Role::Depth) && same(Role::Stencil)
 }

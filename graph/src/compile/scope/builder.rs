@@ -103,7 +103,7 @@ impl<'a> Builder<'a> {
                     });
                     clashes
                 };
-                scope.can_join(adapted, uses, most, custom || scope.custom, |used| reads_locally(scope, used), clashes)
+                scope.can_join(adapted, op, most, custom || scope.custom, |used| reads_locally(scope, used), clashes)
             }
             _ => Err(None),
         };
@@ -178,6 +178,7 @@ impl<'a> Builder<'a> {
             Refusal::Samples(image) => format!("it samples `{}`, which the scope before it writes", resource(image)),
             Refusal::Uses(image) => format!("it uses `{}`, which the scope before it writes", resource(image)),
             Refusal::Writes(image) => format!("it writes `{}`, which the scope before it uses", resource(image)),
+            Refusal::Runs(cadence) => format!("the scope before it runs {cadence}"),
             Refusal::Resolved(image) => format!("the scope before it ends with the resolve of `{}`", resource(image)),
         };
         let OpKind::Draw(pass) = self.adapted.ops[op as usize].kind else { return };
@@ -201,7 +202,11 @@ impl<'a> Builder<'a> {
         if written != drawn || self.traces[target_subresource].used >= drawn {
             return Err("its target is in use since it was drawn, or it was written by other means");
         }
+        let adapted = self.adapted;
         let Step::Scope(scope) = &mut self.steps[at] else { return Err("no rendering scope drew it") };
+        if scope.ops.first().is_some_and(|first| adapted.cadence(*first) != adapted.cadence(op)) {
+            return Err("the scope that drew it runs in other frames");
+        }
         match scope.resolve_of(source) {
             Some(slot @ None) => *slot = Some(op),
             _ => return Err("the scope that drew it resolves it into another image"),

@@ -2,7 +2,7 @@
 
 use super::step::{Scope, Target, colors_of, plane_of};
 use crate::compile::model::{AdaptedFrame, InitialContents, PhysicalIndex, Role, Use};
-use crate::frame::TargetShape;
+use crate::frame::{Cadence, TargetShape};
 use crate::vulkan::{Aspects, Subresources};
 
 /// Why a pass can't join the scope before it.
@@ -13,6 +13,7 @@ pub(super) enum Refusal {
     Uses(PhysicalIndex),
     Writes(PhysicalIndex),
     Resolved(PhysicalIndex),
+    Runs(Cadence),
 }
 
 impl Refusal {
@@ -23,17 +24,18 @@ impl Refusal {
 }
 
 impl Scope {
-    /// Whether a pass with these uses can join; if not, why, unless it has nothing in common with the scope. `fixed`: the colours of
+    /// Whether an operation can join; if not, why, unless it has nothing in common with the scope. `fixed`: the colours of
     /// pass and scope must be the same.
     pub(super) fn can_join(
         &self,
         adapted: &AdaptedFrame,
-        uses: &[Use],
+        op: u32,
         most_colors: usize,
         fixed: bool,
         local: impl Fn(&Use) -> bool,
         clashes: impl Fn(&Use) -> bool,
     ) -> Result<(), Option<Refusal>> {
+        let uses = adapted.uses(op);
         let attached = |used: &Use| self.attaches(adapted, used);
         let reads_locally = uses.iter().any(&local);
         let shares = reads_locally || uses.iter().any(|used| used.role.is_attachment() && attached(used));
@@ -49,6 +51,9 @@ impl Scope {
         }
         if !shares {
             return Err(None);
+        }
+        if let Some(cadence) = self.ops.first().map(|first| adapted.cadence(*first)).filter(|it| *it != adapted.cadence(op)) {
+            return refuse(Refusal::Runs(cadence.clone()));
         }
         let same = |ours: Option<Target>, role| match (ours, plane_of(adapted, uses, role)) {
             (Some(a), Some(b)) => a == b,

@@ -78,6 +78,7 @@ pub(in crate::expand) fn draft(
         name: pass.name.text.clone(),
         span: pass.name.span,
         view: pass.view,
+        run: pass.run.clone().unwrap_or_default(),
         work: work::lower(resources, pass, interface),
         // Vectors with room for just these: a frame has many passes with one or two.
         sampled: Vec::with_capacity(pass.sample.len()),

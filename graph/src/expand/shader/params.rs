@@ -48,6 +48,8 @@ pub(in crate::expand) fn give(
         match convert(&param.value.value, &member.ty) {
             Ok(value) => given.push((name.clone(), value)),
             Err((place, help)) => {
+                let of_frame = param.value.value.is_of_frame();
+                let help = if of_frame { Some("`frame` is a `uint`, and `time` a `float`".to_owned()) } else { help };
                 let message = format!(
                     "parameter `{name}` of shader `{shader}` has the type `{}` and can't be {}{place}",
                     member.ty,
@@ -107,7 +109,7 @@ pub(super) fn shown(param: &language::Param) -> String {
 /// A value with its numbers as people read them.
 fn number(value: &ParamValue) -> String {
     match value {
-        ParamValue::Bool(_) | ParamValue::Integer(_) => value.to_string(),
+        ParamValue::Bool(_) | ParamValue::Integer(_) | ParamValue::OfFrame(_) => value.to_string(),
         ParamValue::Number(value) => shown_number(*value),
         ParamValue::List(values) => format!("({})", values.iter().map(number).collect::<Vec<_>>().join(", ")),
     }

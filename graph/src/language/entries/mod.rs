@@ -3,6 +3,7 @@
 pub(crate) mod bindings;
 pub(crate) mod body;
 pub(crate) mod buffers;
+mod cadence;
 pub(crate) mod casters;
 pub(crate) mod condition;
 pub(crate) mod declared_uses;

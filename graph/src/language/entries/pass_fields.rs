@@ -3,7 +3,7 @@
 use super::condition::CONDITION;
 use super::repeat::REPEAT;
 use super::stand_ins::OTHERWISE;
-use super::{bindings, declared_uses, dispatch, draw, parts, raster, shader, targets, transfer, views};
+use super::{bindings, cadence, declared_uses, dispatch, draw, parts, raster, shader, targets, transfer, views};
 use crate::fields;
 use crate::ron::{Leaf, PlainForm};
 
@@ -18,6 +18,8 @@ fields! {
         pub(crate) name: Leaf<'src> => Form::Plain(PlainForm::Name),
         /// The view that it draws for; the first if left out.
         pub(crate) view: Option<Leaf<'src>> => views::NAME,
+        /// In [which frames](#passes-that-dont-run-in-every-frame) it runs; always if left out.
+        pub(crate) run: Option<Leaf<'src>> => cadence::RUN,
         /// The name of an index, and how often the entry is repeated.
         pub(crate) repeat: Option<Leaf<'src>> => REPEAT,
         /// It draws.

@@ -73,6 +73,7 @@ impl Context<'_> {
         let alpha_to_coverage = optional(fields.alpha_to_coverage, |leaf| self.truth(leaf));
         let covers = optional(fields.covers, |leaf| self.truth(leaf).map(FieldValue::alone));
         let uses = optional(fields.uses, |leaf| self.declared_uses(leaf));
+        let run = optional(fields.run, |leaf| self.cadence(leaf));
         let queue = values::optional_choice(self.reader, fields.queue, "a queue", &QUEUES);
         let params = optional(fields.params, |leaf| self.params(leaf));
         let constants = optional(fields.constants, |leaf| self.constants(leaf));
@@ -96,9 +97,9 @@ impl Context<'_> {
             bindings,
             (ReadableValue(vertex), ReadableValue(index)),
             targets,
-            (ReadableValue(side_effect), ReadableValue(uses)),
+            (ReadableValue(side_effect), ReadableValue(uses), ReadableValue(run)),
         );
-        reported(self.reader, parts, move |reader, (work, bindings, (vertex, index), targets, (side_effect, uses))| {
+        reported(self.reader, parts, move |reader, (work, bindings, (vertex, index), targets, (side_effect, uses, run))| {
             let (sample, storage, uniform, (params, constants)) = bindings;
             let (color, depth, raster, alpha_to_coverage, covers) = targets;
             if let (Some(color), Some(depth)) = (&color, &depth) {
@@ -130,6 +131,7 @@ impl Context<'_> {
                 side_effect: side_effect?.unwrap_or_default(),
                 otherwise: Vec::new(),
                 view: ViewIndex::default(),
+                run: run?,
                 instance: None,
             }))
         })

@@ -5,10 +5,12 @@ use super::condition::{CONDITION, Condition};
 use super::fragments::Fragments;
 use super::repeat::REPEAT;
 use super::stand_ins::{OTHERWISE, StandInList};
-use super::{parameters, views};
+use super::values::optional;
+use super::{cadence, parameters, views};
 use crate::base::{Code, Diagnostic, Span, enumerated};
 use crate::expression::{Expression, Outcome, Type, Value, WantedTypes};
 use crate::fields;
+use crate::frame::Cadence;
 use crate::language::model::SettingKind;
 use crate::language::scope::{Context, DecidedValue, FieldValue, Parameter, ParameterKind, Symbols, joined};
 use crate::ron::{Form, Leaf, Name, PlainForm, Reader, Shape};
@@ -26,6 +28,8 @@ fields! {
         pub(crate) name: Leaf<'src> => Form::Plain(PlainForm::Name),
         /// The view that all it puts in is for; the first if left out.
         pub(crate) view: Option<Leaf<'src>> => views::NAME,
+        /// In [which frames](#passes-that-dont-run-in-every-frame) its passes run that don't say it themselves; always if left out.
+        pub(crate) run: Option<Leaf<'src>> => cadence::RUN,
         /// The name of an index, and how often the entry is repeated.
         pub(crate) repeat: Option<Leaf<'src>> => REPEAT,
         /// Values for the fragment's parameters, by their names.
@@ -51,6 +55,8 @@ pub(crate) struct UseEntry {
     /// The fragment, by number.
     pub(crate) fragment: usize,
     pub(crate) condition: FieldValue<Condition>,
+    /// In which frames its passes run that don't say it themselves.
+    pub(crate) run: Option<FieldValue<Cadence>>,
     /// The stand-ins for when it is off.
     pub(crate) otherwise: Option<StandInList>,
     /// Values for the fragment's parameters, in their order.
@@ -71,11 +77,12 @@ impl Context<'_> {
         let fragment = self.reader.reference(fields.r#use, "a fragment");
         let fragment = fragment.and_then(|name| fragments.names.find(self.reader, &name));
         let condition = self.condition(fields.when);
+        let run = optional(fields.run, |leaf| self.cadence(leaf));
         let otherwise = self.otherwise(fields.otherwise, fields.when);
         let found = fragment.and_then(|at| Some((fragments.called(at), &*fragments.get(at)?.symbols)));
         let arguments = found.map(|found| self.arguments(fields, found));
         let (fragment, arguments) = (fragment?, arguments?);
-        Some(UseEntry { name: name?, fragment, condition: condition?, otherwise: otherwise?, arguments })
+        Some(UseEntry { name: name?, fragment, condition: condition?, run: run?, otherwise: otherwise?, arguments })
     }
 
     /// Values for the parameters of the fragment `called` so, in their order; `None` where there is none, which was reported.

@@ -3,7 +3,7 @@
 
 use crate::base::{Code, Diagnostic};
 use crate::expression::{Value, WantedTypes};
-use crate::frame::ParamValue;
+use crate::frame::{FrameValue, ParamValue};
 use crate::language::model::{Decided, Decisions, Fill, SettingKind};
 use crate::language::scope::{Context, FieldContents, FieldValue, Quoted, all, combined, decided, within_view};
 use crate::ron::{Form, Leaf, Number, Reader, Shape, Spanned, Words};
@@ -160,6 +160,9 @@ impl Context<'_> {
                 self.reader.expected(leaf, &format!("a number, `true`, `false`, {more}or an expression in quotes"));
                 return None;
             }
+        }
+        if let Some(value) = leaf.plain().filter(|text| self.scope.names_nothing(text)).and_then(FrameValue::named) {
+            return Some(FieldValue::said(leaf, ParamValue::OfFrame(value)));
         }
         let fits = |kind: &SettingKind| !matches!(kind, SettingKind::Choice { .. });
         let words = (WantedTypes::PARAMETER.words, Some(WantedTypes::PARAMETER.words));

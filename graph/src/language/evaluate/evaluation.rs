@@ -3,7 +3,7 @@
 use super::lists::FlatLists;
 use super::memory::Memory;
 use crate::base::{Code, Diagnostic, Span};
-use crate::frame::ViewIndex;
+use crate::frame::{Cadence, ViewIndex};
 use crate::language::entries::body::Body;
 use crate::language::entries::fragments::Fragments;
 use crate::language::entries::repeat::{MOST_THINGS, Repeat, Times};
@@ -62,6 +62,8 @@ pub(super) struct Level<'b> {
     pub(super) off: bool,
     /// The settings and facts that decided about its passes: those of the uses that it is within.
     pub(super) decided: PassDecisions,
+    /// In which frames its passes run that don't say it themselves, if a use that it is within does.
+    pub(super) run: Option<Cadence>,
     /// The settings and facts that decided how often an image is repeated, with the image's number in the body, in rising
     /// order.
     pub(super) repeats: Vec<(usize, Decisions)>,
@@ -88,6 +90,7 @@ impl<'b> Level<'b> {
             instance: None,
             off: false,
             decided: PassDecisions::default(),
+            run: None,
             repeats: Vec::new(),
         }
     }
@@ -99,10 +102,12 @@ impl<'b> Level<'b> {
         (whole, view, instance): (&Name, ViewIndex, Option<u32>),
         off: bool,
         decided: &PassDecisions,
+        run: Option<Cadence>,
     ) -> Level<'b> {
         let prefix = format!("{}.", whole.text).into();
         let (off, decided) = (outer.off || off, decided.within(&outer.decided));
-        Level { body, values: below(body, values), prefix, view, instance, off, decided, repeats: Vec::new() }
+        let run = run.or_else(|| outer.run.clone());
+        Level { body, values: below(body, values), prefix, view, instance, off, decided, run, repeats: Vec::new() }
     }
 
     /// Whether its entries, or those with this number, are called as they were declared, and belong to no fragment.

@@ -39,6 +39,7 @@ impl<'a> Evaluation<'a> {
             Some((evaluator.leniently(is_off, |evaluator| value.evaluate(evaluator))?, *span))
         });
         let values: Vec<Option<(DecidedValue, Option<Span>)>> = arguments.collect();
+        let run = entry.run.as_ref().map(|run| evaluator.leniently(is_off, |evaluator| run.evaluate(evaluator)));
         let images = std::mem::take(&mut evaluator.chosen);
         let (name, at, fragments) = (&entry.name, entry.fragment, self.fragments);
         let (Some(found), Some(Condition { off, by })) = (fragments.get(at), condition) else {
@@ -66,7 +67,7 @@ impl<'a> Evaluation<'a> {
         let start = self.flat.lengths();
         let instance = u32::try_from(self.flat.instances.len()).ok();
         let decided = PassDecisions { runs: by, images, repeat: repeated.repeat.clone() };
-        let mut inner = Level::within(level, (found, values), (&whole, view, instance), is_off, &decided);
+        let mut inner = Level::within(level, (found, values), (&whole, view, instance), is_off, &decided, run.flatten());
         self.flat.instances.push(Instance { name: whole.text.clone(), span: name.span, within: level.instance });
         self.used.insert(at);
         self.path.push((at, name.clone()));

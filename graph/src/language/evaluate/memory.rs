@@ -2,7 +2,7 @@
 //! has another value.
 
 use super::evaluation::{Evaluation, Level};
-use crate::frame::ViewIndex;
+use crate::frame::{Cadence, ViewIndex};
 use crate::language::entries::pipeline::Entries;
 use crate::language::model::{Image, Pass, PassDecisions};
 use crate::language::scope::{Answers, Asked, Evaluator, FieldContents, FieldValue, FieldValueTuple, ScopeValues};
@@ -43,11 +43,13 @@ struct LevelContext {
     view: ViewIndex,
     off: bool,
     decided: PassDecisions,
+    run: Option<Cadence>,
 }
 
 impl LevelContext {
     fn is_same(&self, level: &Level<'_>, view: ViewIndex, decided: &PassDecisions) -> bool {
-        self.view == view && self.off == level.off && self.prefix == level.prefix && self.decided == *decided
+        let named = self.view == view && self.prefix == level.prefix;
+        named && self.off == level.off && self.decided == *decided && self.run == level.run
     }
 }
 
@@ -119,7 +121,8 @@ impl<'a> Evaluation<'a> {
         evaluator.scope.answers = Some(&answers);
         let made = entry.evaluate(&mut evaluator).map(|thing| finish(thing, &mut evaluator));
         if let Some(value) = made.as_ref().filter(|_| reader.errors.len() == before) {
-            let given = LevelContext { prefix: level.prefix.clone(), view, off: level.off, decided: decided.clone() };
+            let (prefix, run) = (level.prefix.clone(), level.run.clone());
+            let given = LevelContext { prefix, view, off: level.off, decided: decided.clone(), run };
             let (value, asked) = (value.clone(), answers.into_inner());
             let thing = EvaluatedEntry { value, asked, given, turn };
             T::table(memory).insert(place, thing);

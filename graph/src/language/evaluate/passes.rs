@@ -36,6 +36,7 @@ impl<'a> Evaluation<'a> {
                             let pass = Arc::make_mut(&mut pass);
                             pass.name = level.full(&pass.name, number);
                             (pass.view, pass.instance) = (view, level.instance);
+                            pass.run = pass.run.take().or_else(|| level.run.clone());
                             if !decided.is_empty() {
                                 pass.decided = pass.decided.within(&decided);
                             }

@@ -5,7 +5,7 @@ use super::part::{BufferPart, ImagePart, Part};
 use super::references::ImageRef;
 use super::resources::Fill;
 use crate::base::Span;
-use crate::frame::{Blend, Draw, ParamValue, RasterState, StencilState, ViewIndex};
+use crate::frame::{Blend, Cadence, Draw, ParamValue, RasterState, StencilState, ViewIndex};
 use crate::ron::{Name, Spanned};
 use crate::vulkan::{self, AddressMode, BorderColor, ColorComponents, CompareOp, Filter, Real, SamplerReductionMode};
 use std::sync::Arc;
@@ -57,6 +57,8 @@ pub struct Pass {
     pub otherwise: Vec<StandIn>,
     /// The view that it draws for.
     pub view: ViewIndex,
+    /// In which frames it runs, if it says so itself or a use that it is within does.
+    pub run: Option<Cadence>,
     /// The fragment that it came with: an index into [`Pipeline::instances`](super::Pipeline::instances).
     pub instance: Option<u32>,
 }
@@ -504,6 +506,7 @@ impl Pass {
             side_effect: false,
             otherwise: Vec::new(),
             view: ViewIndex::default(),
+            run: None,
             instance: None,
         }
     }

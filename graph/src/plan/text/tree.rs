@@ -155,8 +155,9 @@ impl<'p> Text<'p> {
             Queue::Compute => " on the compute queue",
             Queue::Transfer => " on the transfer queue",
         };
+        let runs = if step.run.is_always() { String::new() } else { format!(", runs {}", ShownText(&step.run.to_string())) };
         let number = entry.step.map_or_else(String::new, |StepId(id)| format!(" {id}"));
-        (format!("step{number}{queue}: {title}"), parts)
+        (format!("step{number}{queue}{runs}: {title}"), parts)
     }
 
     /// The bytes that steps move, and those that stay on the chip.

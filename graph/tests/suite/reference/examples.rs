@@ -125,6 +125,10 @@ pub(crate) fn whole_word(words: &str, word: &str) -> String {
             let shader = if word.starts_with("FullScreen") { "" } else { "shader: \"plain\", " };
             with("passes", &format!("(name: \"it\", draw: {word}, {shader}color: [\"target\"])"))
         }
+        "Run" => with(
+            "passes",
+            &format!("(name: \"it\", run: {}, draw: FullScreen(\"plain\"), color: [\"target\"])", word.replace("\"face\"", "5")),
+        ),
         "Groups" => {
             let pass = format!("(name: \"it\", dispatch: \"it\", groups: {word}, storage: {{\"it\": \"buffer\"}})");
             with("passes", &pass)

@@ -3,6 +3,7 @@
 use super::Edit;
 use super::barriers::others;
 use crate::mutation::Kind;
+use framewright_graph::frame::Cadence;
 use framewright_graph::plan::{
     Access, Attachment, Cause, ImageId, Pass, Placement, Plan, Queue, Role, Side, Step, StepId, Transfer, Work,
 };
@@ -142,6 +143,7 @@ fn operations(plan: &Plan, number: usize, at: usize, edits: &mut Vec<Edit>) {
         let step = &mut plan.steps[number];
         let before = Step {
             queue: Queue::Graphics,
+            run: Cadence::Always,
             waits: std::mem::take(&mut step.waits),
             memory_barriers: std::mem::take(&mut step.memory_barriers),
             image_barriers: std::mem::take(&mut step.image_barriers),
@@ -195,6 +197,7 @@ fn standalone_resolve(plan: &Plan, number: usize, edits: &mut Vec<Edit>) {
             let moved = std::mem::replace(&mut plan.steps[number].work, Work::Export);
             let before = Step {
                 queue: Queue::Graphics,
+                run: Cadence::Always,
                 waits: Vec::new(),
                 memory_barriers: Vec::new(),
                 image_barriers: Vec::new(),

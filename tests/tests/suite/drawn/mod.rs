@@ -6,6 +6,7 @@ mod ambient_occlusion;
 mod arrays_of_images;
 mod auto_exposure;
 mod bloom;
+mod cached_cascades;
 mod camera_everywhere;
 mod color_grading;
 mod compared_depth;

@@ -2,7 +2,7 @@
 
 use super::lifetime;
 use framewright_graph::base::Place;
-use framewright_graph::frame::{Blend, BufferRole, Draw, Groups, RasterState, Stereo};
+use framewright_graph::frame::{Blend, BufferRole, Cadence, Draw, Groups, RasterState, Stereo};
 use framewright_graph::plan::*;
 use framewright_graph::vulkan::{
     self, Accesses, BufferUsage, Filter, Format, Layout, LoadOp, Rotation, Sampler, Shape, Sharing, Stages, StoreOp,
@@ -190,6 +190,7 @@ pub(crate) fn scope(samples: u32, color: Vec<Attachment>, depth: Option<Attachme
 pub(crate) fn step(image_barriers: Vec<ImageBarrier>, work: Work) -> Step {
     Step {
         queue: Queue::Graphics,
+        run: Cadence::Always,
         waits: Vec::new(),
         memory_barriers: Vec::new(),
         image_barriers,
