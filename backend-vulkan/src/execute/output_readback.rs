@@ -40,7 +40,8 @@ impl OutputReadback {
         match self.resource {
             Resource::Image(image) => {
                 let descriptor = frame.image(image).descriptor;
-                Readback::of_image(frame.gpu, &descriptor, first_plane(descriptor.format), 0)
+                let extent = frame.physical.level(frame.plan.image(image), 0, frame.number);
+                Readback::of_image(frame.gpu, &descriptor, first_plane(descriptor.format), (0, extent))
             }
             Resource::Buffer(buffer) => Readback::of_buffer(frame.gpu, frame.buffer(buffer).bytes),
         }

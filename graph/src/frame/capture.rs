@@ -105,7 +105,6 @@ pub fn capture_name(number: usize) -> String {
 fn no_capture(image: &Image, range: Subresources) -> Option<&'static str> {
     let all = Subresources { aspects: range.aspects, ..image.whole() };
     match () {
-        () if image.allocated.is_some() => Some("its size changes from frame to frame"),
         () if image.samples == 1 => None,
         () if range.aspects.contains(Aspects::STENCIL) => Some("it has several samples, and stencil can't be resolved"),
         () if range != all => Some("it has several samples, and a part of it can't be resolved"),
