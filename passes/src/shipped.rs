@@ -58,6 +58,7 @@ pub const SHADERS: ShippedFiles = carried!(
     "include/g_buffer_surface.glsl",
     "include/grading.glsl",
     "include/hdr10.glsl",
+    "include/levels.glsl",
     "include/lighting.glsl",
     "include/luminance.glsl",
     "include/material.glsl",

@@ -128,7 +128,7 @@ impl PhysicalResources {
     pub(crate) fn replace_images(&mut self, image: ImageId, by: impl IntoIterator<Item = Image>) {
         let resource = Resource::Image(image);
         let (members, count) = replace(&mut self.images, self.rings.members(resource), by);
-        members.iter().for_each(|place| drop(self.used.remove(place)));
+        self.used.retain(|place, _| !members.contains(place));
         self.rings.set_members(resource, members, count);
     }
 

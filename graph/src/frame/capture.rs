@@ -144,6 +144,7 @@ fn copy_of(image: &Image, range: Subresources, name: &str) -> Image {
         name: name.into(),
         span: Span::NONE,
         extent: image.extent_at(range.base_mip),
+        allocated: image.allocated_at(range.base_mip),
         shape: if image.shape == Shape::Cube { Shape::D2 } else { image.shape },
         mips: 1,
         layers: range.layers,
