@@ -65,6 +65,7 @@ pub const SHADERS: ShippedFiles = carried!(
     "include/motion.glsl",
     "include/overlay.glsl",
     "include/part.glsl",
+    "include/part.hlsl",
     "include/point_lights.glsl",
     "include/radiance.glsl",
     "include/random.glsl",

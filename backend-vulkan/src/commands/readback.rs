@@ -51,6 +51,11 @@ impl Readback {
         Ok(Readback { buffer: buffer(gpu, bytes)?, bytes, plane, mip, extent })
     }
 
+    /// Reads so much of such an image from now on, at most what there is room for.
+    pub(crate) fn read_as_far_as(&mut self, descriptor: &ImageDescriptor, extent: [u32; 3]) {
+        (self.bytes, self.extent) = (texels_bytes(descriptor, self.plane, extent), extent);
+    }
+
     /// Room for a buffer.
     pub(crate) fn of_buffer(gpu: &Arc<Gpu>, bytes: u64) -> Result<Readback, Error> {
         Ok(Readback { buffer: buffer(gpu, bytes)?, bytes, plane: Aspects::empty(), mip: 0, extent: [0; 3] })

@@ -12,7 +12,7 @@ use rspirv::spirv::{Decoration, Dim, ImageFormat, Op, StorageClass};
 use std::collections::HashSet;
 
 /// The block of push constants that tells which parts of images are in use; see shaders/include/part.glsl.
-const PARTS: &str = "FramewrightParts";
+pub(super) const PARTS: &str = "FramewrightParts";
 
 /// The resources. In the pass's own set every declared one counts, since that is what a pipeline file binds; in the
 /// others only what is used, since include libraries declare more than one shader needs. `in_part`: push constants tell which
@@ -30,7 +30,8 @@ pub(super) fn bindings(
     for (variable, instruction) in module.variables() {
         if storage_class(instruction) == Some(StorageClass::PushConstant) && used.contains(&variable) {
             let ty = module.pointee(instruction).and_then(|ty| ty.result_id);
-            if in_part && ty.is_some_and(|ty| module.name(ty) == PARTS) {
+            // Compilers of HLSL put words of their own before the name.
+            if in_part && ty.is_some_and(|ty| module.name(ty).ends_with(PARTS)) {
                 continue;
             }
             let what = "push constants: parameters come in the uniform block `params`".to_owned();

@@ -56,7 +56,10 @@ impl MentionedNames {
         let text = text::without_comments(text);
         let in_order: Vec<&str> = text::words(&text).collect();
         let is_image = |word: &str| word.contains("sampler") || word.contains("image") || word.starts_with(TEXTURE);
-        let seen: BTreeSet<&str> = in_order.windows(2).filter(|pair| is_image(pair[0])).map(|pair| pair[1]).collect();
+        let seen = in_order.windows(2).filter(|pair| is_image(pair[0])).map(|pair| pair[1]);
+        // Of HLSL a texel's type may stand between: `Texture2D<float4> source`.
+        let of_hlsl = in_order.windows(3).filter(|words| words[0].contains("Texture"));
+        let seen: BTreeSet<&str> = seen.chain(of_hlsl.flat_map(|words| [words[1], words[2]])).collect();
         let words: BTreeSet<&str> = in_order.into_iter().collect();
         let is_macro = |word: &&str| {
             [TEXTURE, HAS, COMPONENTS, LOCAL].iter().any(|beginning| word.starts_with(beginning))
@@ -150,6 +153,8 @@ mod tests {
         let text = "uniform sampler2D a; uniform TEXTURE_b b; in vec2 c; vec2 c_st = c * a_st.xy + b_st.zw; // d_st sampler2D d";
         assert_eq!(MentionedNames::by(text).parts, ["a", "b"]);
         assert_eq!(MentionedNames::by("usampler2DArray a ; vec4 x = e_st;").parts, [""; 0]);
+        let hlsl = "Texture2D<float4> a; Texture2D b; RWTexture2D<uint> c; float4 d = a_st + b_st + c_st + d_st;";
+        assert_eq!(MentionedNames::by(hlsl).parts, ["a", "b", "c"]);
         assert_eq!(MentionedNames::by("uniform readonly uimage2D a; ivec2 b = imageSize(a) * a_st.xy;").parts, ["a"]);
     }
 

@@ -240,7 +240,8 @@ fn storage_images_are_covered_and_read_as_far_as_they_are_used_do_10() -> Result
     let (scene, mut shaders) = (empty_scene(), library());
     let plans = plans(device, "tests/pipelines/dynamic_storage.ron", &scene, &mut shaders)?;
     let mut draws = SceneDrawSource::for_plan(device, &scene, EXTENT, &plans[0])?;
-    let mut executor = Executor::new(device, &plans[0], &mut shaders, &poisons(2))?;
+    let how = ExecutorOptions { readback: true, ..poisons(2) };
+    let mut executor = Executor::new(device, &plans[0], &mut shaders, &how)?;
     for (plan, scale) in plans.iter().zip(SCALES) {
         executor.change(plan)?;
         let frame = executor.frame(&mut draws)?;
@@ -253,6 +254,27 @@ fn storage_images_are_covered_and_read_as_far_as_they_are_used_do_10() -> Result
         let expected = ([width, height], texels.map(sum).collect());
         assert!(numbers(&executor.read(0)?) == expected, "{scale}");
         assert!(numbers(&executor.read_back_image(frame, 0)?) == expected, "{scale}: what a frame left");
+    }
+    silent(device)
+}
+
+/// Sums may be contracted in another way.
+#[test]
+fn hlsl_is_told_of_parts_as_glsl_is_do_10() -> Result<(), Box<dyn Error>> {
+    let Some(device) = device() else { return Ok(()) };
+    let (scene, mut shaders) = (empty_scene(), library());
+    let plans = plans(device, "tests/pipelines/dynamic_hlsl.ron", &scene, &mut shaders)?;
+    let mut draws = SceneDrawSource::for_plan(device, &scene, EXTENT, &plans[0])?;
+    let mut executor = Executor::new(device, &plans[0], &mut shaders, &poisons(2))?;
+    let mut before = EXTENT.map(|side| side / 2);
+    for (plan, scale) in plans.iter().zip(SCALES) {
+        executor.change(plan)?;
+        executor.submit(&mut draws)?;
+        let [glsl, hlsl] = [executor.read(0)?, executor.read(1)?];
+        assert!(apart(&glsl, &hlsl) <= 1e-4, "{scale}: {}", apart(&glsl, &hlsl));
+        let sizes = [0, 1].map(|axis| f64::from(part(scale)[axis] + 100 * before[axis]));
+        assert_eq!(rgba(&hlsl)[0][2..], sizes, "{scale}");
+        before = part(scale);
     }
     silent(device)
 }
