@@ -11,8 +11,14 @@ use rspirv::dr::{Instruction, Operand};
 use rspirv::spirv::{Decoration, Dim, ImageFormat, Op, StorageClass};
 use std::collections::HashSet;
 
-/// The block of push constants that tells which parts of images are in use; see shaders/include/part.glsl.
-pub(super) const PARTS: &str = "FramewrightParts";
+/// The block of push constants that tells which parts of images are in use, and its variable: see shaders/include/part.glsl. Of HLSL's
+/// compilers each names the block in its own way.
+const PARTS: [&str; 2] = ["FramewrightParts", "framewright_parts"];
+
+/// Whether push constants of this name tell which parts of images are in use.
+pub(super) fn tells_parts(name: &str) -> bool {
+    PARTS.contains(&name)
+}
 
 /// The resources. In the pass's own set every declared one counts, since that is what a pipeline file binds; in the
 /// others only what is used, since include libraries declare more than one shader needs. `in_part`: push constants tell which
@@ -30,8 +36,7 @@ pub(super) fn bindings(
     for (variable, instruction) in module.variables() {
         if storage_class(instruction) == Some(StorageClass::PushConstant) && used.contains(&variable) {
             let ty = module.pointee(instruction).and_then(|ty| ty.result_id);
-            // Compilers of HLSL put words of their own before the name.
-            if in_part && ty.is_some_and(|ty| module.name(ty).ends_with(PARTS)) {
+            if in_part && ty.into_iter().chain([variable]).any(|id| tells_parts(module.name(id))) {
                 continue;
             }
             let what = "push constants: parameters come in the uniform block `params`".to_owned();
