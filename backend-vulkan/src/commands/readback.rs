@@ -35,27 +35,30 @@ pub(crate) struct Readback {
     bytes: u64,
     plane: Aspects,
     mip: u32,
+    /// Width, height and depth that are read.
+    extent: [u32; 3],
 }
 
 impl Readback {
-    /// Room for one plane of one mip level of such an image.
+    /// Room for one plane of one mip level of such an image, of which so much is read.
     pub(crate) fn of_image(
         gpu: &Arc<Gpu>,
         descriptor: &ImageDescriptor,
         plane: Aspects,
-        mip: u32,
+        (mip, extent): (u32, [u32; 3]),
     ) -> Result<Readback, Error> {
-        Readback::new(gpu, level_bytes(descriptor, plane, mip), plane, mip)
+        let bytes = texels_bytes(descriptor, plane, extent);
+        Ok(Readback { buffer: buffer(gpu, bytes)?, bytes, plane, mip, extent })
+    }
+
+    /// Reads so much of such an image from now on, at most what there is room for.
+    pub(crate) fn read_as_far_as(&mut self, descriptor: &ImageDescriptor, extent: [u32; 3]) {
+        (self.bytes, self.extent) = (texels_bytes(descriptor, self.plane, extent), extent);
     }
 
     /// Room for a buffer.
     pub(crate) fn of_buffer(gpu: &Arc<Gpu>, bytes: u64) -> Result<Readback, Error> {
-        Readback::new(gpu, bytes, Aspects::empty(), 0)
-    }
-
-    fn new(gpu: &Arc<Gpu>, bytes: u64, plane: Aspects, mip: u32) -> Result<Readback, Error> {
-        let buffer = RawBuffer::new(gpu, "readback", bytes, vk::BufferUsageFlags::TRANSFER_DST, MemoryUse::Readback)?;
-        Ok(Readback { buffer, bytes, plane, mip })
+        Ok(Readback { buffer: buffer(gpu, bytes)?, bytes, plane: Aspects::empty(), mip: 0, extent: [0; 3] })
     }
 
     /// Copies from `image`, which is in the state `state` and stays in it.
@@ -64,7 +67,7 @@ impl Readback {
         let whole = Subresources::all(descriptor.format, descriptor.mips, descriptor.layers);
         barriers(gpu, commands, &[], &[state_change(image.raw, whole, state, COPIED)]);
         let range = Subresources { aspects: self.plane, base_mip: self.mip, mips: 1, ..whole };
-        let extent = convert::extent(mip_extent(&descriptor, self.mip));
+        let extent = convert::extent(self.extent);
         let layout = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
         let source = TransferSide::Image(ImageSide { image: image.raw, range, extent, layout });
         copy_between(gpu, commands, source, self.place());
@@ -90,7 +93,7 @@ impl Readback {
     /// The texels of the upright picture that an image of this description holds, turned so. The copy must have been waited
     /// for.
     pub(crate) fn texels(&self, descriptor: &ImageDescriptor, rotation: Rotation) -> Result<Texels, Error> {
-        let [width, height, depth] = mip_extent(descriptor, self.mip);
+        let [width, height, depth] = self.extent;
         let (format, layers, mut bytes) = (descriptor.format, descriptor.layers, self.bytes()?);
         if rotation.turns() {
             let texel_bytes = usize::try_from(plane_bytes(format, self.plane)).unwrap_or(1);
@@ -99,6 +102,10 @@ impl Readback {
         let [width, height] = rotation.extent([width, height]);
         Ok(Texels { format, extent: [width, height, depth], layers, bytes })
     }
+}
+
+fn buffer(gpu: &Arc<Gpu>, bytes: u64) -> Result<RawBuffer, Error> {
+    RawBuffer::new(gpu, "readback", bytes, vk::BufferUsageFlags::TRANSFER_DST, MemoryUse::Readback)
 }
 
 fn to_host() -> vk::MemoryBarrier2<'static> {
@@ -116,7 +123,11 @@ pub(crate) fn mip_extent(descriptor: &ImageDescriptor, mip: u32) -> [u32; 3] {
 
 /// Bytes of one plane of a mip level, all layers together.
 pub(crate) fn level_bytes(descriptor: &ImageDescriptor, plane: Aspects, mip: u32) -> u64 {
-    let extent = mip_extent(descriptor, mip);
+    texels_bytes(descriptor, plane, mip_extent(descriptor, mip))
+}
+
+/// Bytes of one plane of so many texels, all layers together.
+fn texels_bytes(descriptor: &ImageDescriptor, plane: Aspects, extent: [u32; 3]) -> u64 {
     let bytes = match plane {
         Aspects::COLOR => descriptor.format.bytes(extent),
         _ => extent.iter().fold(plane_bytes(descriptor.format, plane), |all, side| all.saturating_mul((*side).into())),

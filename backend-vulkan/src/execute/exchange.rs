@@ -62,7 +62,8 @@ impl Executor {
         let (frame, state, queue) = self.left(Resource::Image(id))?;
         self.frames.wait_for_all()?;
         let image = self.prepared.physical.image(id, frame);
-        let readback = Readback::of_image(&self.gpu, &image.descriptor, plane, mip)?;
+        let extent = self.prepared.physical.level(self.plan.image(id), mip, frame);
+        let readback = Readback::of_image(&self.gpu, &image.descriptor, plane, (mip, extent))?;
         self.gpu.submit_once("reading an image back", queue, |commands| {
             readback.record_image(&self.gpu, commands, image, state);
         })?;
@@ -111,6 +112,9 @@ impl Executor {
         self.frames.wait_for_all()?;
         self.ready()?;
         let bad = |what: String| Error::BadResource { what: format!("image `{name}` can't be written: {what}") };
+        if self.plan.image(id).allocated.is_some() {
+            return Err(bad("its size may change from frame to frame, and a frame writes it anew".to_owned()));
+        }
         let (state, queue) = self.found(Resource::Image(id), name)?;
         let image = self.prepared.physical.image(id, self.frames.next());
         if !image.descriptor.usage.contains(Usage::TRANSFER_DST) {

@@ -201,6 +201,7 @@ impl Frames {
         if slot.outputs.len() < extras.readbacks.len() {
             slot.outputs = extras.readbacks.iter().map(|it| it.make(frame)).collect::<Result<_, _>>()?;
         }
+        extras.readbacks.iter().zip(&mut slot.outputs).for_each(|(readback, to)| readback.reach(frame, to));
         Ok(at)
     }
 

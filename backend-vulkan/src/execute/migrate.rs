@@ -58,7 +58,10 @@ impl Executor {
         for it in &migrated {
             let (from, to) = (&before.prepared.physical, &mut self.prepared.physical);
             match (it.from, it.to) {
-                (Resource::Image(old), Resource::Image(new)) => to.migrate_image(new, from.image(old, next).clone()),
+                (Resource::Image(old), Resource::Image(new)) => {
+                    let extent = from.extent(before.plan.image(old), next);
+                    to.migrate_image(new, from.image(old, next).clone(), extent);
+                }
                 (Resource::Buffer(old), Resource::Buffer(new)) => {
                     to.migrate_buffer(new, from.buffer(old, next).clone())
                 }
@@ -113,8 +116,11 @@ impl Executor {
         let (next, old, new) = (before.frames.next(), &before.prepared.physical, &self.prepared.physical);
         let fits = match (from, to) {
             (Resource::Image(from), Resource::Image(to)) => {
+                // Who reads all of an image can't go on with a part of it.
+                let parts = [before.plan.image(from), self.plan.image(to)].map(|image| image.allocated.is_some());
                 let (old, new) = (old.image(from, next).descriptor, new.image(to, 0).descriptor);
-                old.usage.contains(new.usage)
+                parts[0] == parts[1]
+                    && old.usage.contains(new.usage)
                     && framewright_graph::device::ImageDescriptor { usage: old.usage, ..new } == old
             }
             (Resource::Buffer(from), Resource::Buffer(to)) => {

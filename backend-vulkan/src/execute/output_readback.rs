@@ -1,7 +1,7 @@
 //! Output readback: each frame copies its outputs to the host, where no later frame changes them.
 
 use crate::base::Error;
-use crate::commands::{Readback, first_plane};
+use crate::commands::{Readback, first_plane, mip_extent};
 use crate::prepare::{Frame, ResourceUses};
 use ash::vk;
 use framewright_graph::plan::{Output, Plan, Resource, Role, StepId};
@@ -35,14 +35,23 @@ impl OutputReadback {
         plan.outputs.iter().map(readback).collect()
     }
 
-    /// Room for it.
+    /// Room for it, in every frame.
     pub(crate) fn make(&self, frame: &Frame<'_>) -> Result<Readback, Error> {
         match self.resource {
             Resource::Image(image) => {
                 let descriptor = frame.image(image).descriptor;
-                Readback::of_image(frame.gpu, &descriptor, first_plane(descriptor.format), 0)
+                let all = (0, mip_extent(&descriptor, 0));
+                Readback::of_image(frame.gpu, &descriptor, first_plane(descriptor.format), all)
             }
             Resource::Buffer(buffer) => Readback::of_buffer(frame.gpu, frame.buffer(buffer).bytes),
+        }
+    }
+
+    /// Lets it be read as far as the frame uses it.
+    pub(crate) fn reach(&self, frame: &Frame<'_>, to: &mut Readback) {
+        if let Resource::Image(image) = self.resource {
+            let extent = frame.physical.level(frame.plan.image(image), 0, frame.number);
+            to.read_as_far_as(&frame.image(image).descriptor, extent);
         }
     }
 

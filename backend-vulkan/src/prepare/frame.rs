@@ -80,6 +80,12 @@ impl Frame<'_> {
         self.physical.image(image, self.number)
     }
 
+    /// Width, height and depth of a mip level of what a Plan's image holds: of a part, if more is allocated.
+    pub(crate) fn extent(&self, image: ImageId, mip: u32) -> [u32; 3] {
+        let planned = self.plan.image(image);
+        planned.level(self.physical.extent(planned, self.number), mip)
+    }
+
     /// The buffer on the device that stands for a Plan's buffer.
     pub(crate) fn buffer(&self, buffer: BufferId) -> &Arc<RawBuffer> {
         self.physical.buffer(buffer, self.number)

@@ -164,7 +164,12 @@ fn bindings(
     supplied: &SuppliedSets,
 ) -> Result<Bindings, Error> {
     let set = sets.prepare(frame)?.unwrap_or_default();
-    let parts = frame.plan.parts(pass).flat_map(|(_, part)| part.map(f32::to_ne_bytes)).flatten();
+    let parts = frame.plan.parts(pass).flat_map(|(_, access)| {
+        let image = frame.plan.image(access.image);
+        let extent = frame.physical.extent(image, frame.number);
+        image.part(extent, access.range.base_mip).map(f32::to_ne_bytes)
+    });
+    let parts = parts.flatten();
     let (layout, program) = (supplied.layout, supplied.has_program_sets());
     Ok(Bindings { layout, set, parts: Run::add(&mut list.parts, parts), program })
 }

@@ -7,9 +7,10 @@ use crate::gpu::Gpu;
 use crate::memory::{Image, MemoryBlock, MemoryUse, RawBuffer};
 use ash::vk;
 use framewright_graph::device::ImageDescriptor;
-use framewright_graph::plan::{BufferId, ImageId, Placement, Plan, Resource, Role};
+use framewright_graph::frame::EyeForm;
+use framewright_graph::plan::{self, BufferId, ImageId, Placement, Plan, Resource, Role};
 use framewright_graph::vulkan::Usage;
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 /// The images and buffers that a Plan's images and buffers are.
@@ -19,6 +20,8 @@ pub(crate) struct PhysicalResources {
     rings: ResourceRings,
     /// Images and buffers that were taken over from another Plan's executor.
     migrated: HashSet<Resource>,
+    /// How far images whose size changes were used by the frame that wrote them last, by their places in `images`.
+    used: HashMap<usize, [u32; 3]>,
 }
 
 impl PhysicalResources {
@@ -50,7 +53,7 @@ impl PhysicalResources {
             made.map(Arc::new)
         });
         let buffers = buffers.collect::<Result<_, _>>()?;
-        Ok(PhysicalResources { images, buffers, rings, migrated: HashSet::new() })
+        Ok(PhysicalResources { images, buffers, rings, migrated: HashSet::new(), used: HashMap::new() })
     }
 
     /// The image on the device that stands for a Plan's image in frame `frame`.
@@ -61,6 +64,25 @@ impl PhysicalResources {
     /// The buffer on the device that stands for a Plan's buffer in frame `frame`.
     pub(crate) fn buffer(&self, buffer: BufferId, frame: u64) -> &Arc<RawBuffer> {
         &self.buffers[self.rings.buffer(buffer.0, frame)]
+    }
+
+    /// Width, height and depth of what an image holds in a frame: of a part, if more is allocated. Until a frame has written it, all of it
+    /// is alike.
+    pub(crate) fn extent(&self, image: &plan::Image, frame: u64) -> [u32; 3] {
+        let used = || self.used.get(&self.rings.image(image.id.0, frame)).copied();
+        image.allocated.and_then(|_| used()).unwrap_or(image.extent)
+    }
+
+    /// The same of a mip level, with both eyes' parts if it holds both.
+    pub(crate) fn level(&self, image: &plan::Image, mip: u32, frame: u64) -> [u32; 3] {
+        EyeForm::extent(image.eyes, image.level(self.extent(image, frame), mip), image.rotation)
+    }
+
+    /// Notes that a frame writes this image as far as the Plan says. Returns whether it held another part before.
+    pub(crate) fn write_part(&mut self, image: &plan::Image, frame: u64) -> bool {
+        let before = self.extent(image, frame);
+        self.used.insert(self.rings.image(image.id.0, frame), image.extent);
+        before != image.extent
     }
 
     /// When the same stand for all of these again.
@@ -83,9 +105,10 @@ impl PhysicalResources {
         self.rings.choose(resource, choice);
     }
 
-    /// Takes the contents of another Plan's image for the first frame.
-    pub(crate) fn migrate_image(&mut self, image: ImageId, from: Arc<Image>) {
+    /// Takes the contents of another Plan's image for the first frame. They have this extent.
+    pub(crate) fn migrate_image(&mut self, image: ImageId, from: Arc<Image>, extent: [u32; 3]) {
         self.images[image.0 as usize] = from;
+        self.used.insert(image.0 as usize, extent);
         self.migrated.insert(Resource::Image(image));
     }
 
@@ -105,6 +128,7 @@ impl PhysicalResources {
     pub(crate) fn replace_images(&mut self, image: ImageId, by: impl IntoIterator<Item = Image>) {
         let resource = Resource::Image(image);
         let (members, count) = replace(&mut self.images, self.rings.members(resource), by);
+        self.used.retain(|place, _| !members.contains(place));
         self.rings.set_members(resource, members, count);
     }
 

@@ -10,7 +10,7 @@ use crate::base::Error;
 use crate::gpu::Gpu;
 use crate::resources::ProgramSets;
 use crate::shaders::ShaderLibrary;
-use framewright_graph::plan::Plan;
+use framewright_graph::plan::{self, ImageId, Plan, Role};
 use std::sync::Arc;
 
 /// What is recorded beside the Plan, to look for mistakes. None of it may change a picture.
@@ -31,6 +31,8 @@ pub(crate) struct PreparedPlan {
     debugging: Debugging,
     /// The frame from which on all is prepared anew; `None`: the next one.
     first: Option<u64>,
+    /// Images whose size changes, that outlive the frame, and that it writes.
+    parts: Vec<ImageId>,
 }
 
 impl PreparedPlan {
@@ -54,13 +56,24 @@ impl PreparedPlan {
         };
         let steps = prepare_steps(gpu, plan, shaders)?;
         let list = CommandList::new(plan.steps.iter().map(|step| period(&frame, step)));
-        let mut prepared = PreparedPlan { physical, steps, list, debugging, first: None };
+        let outlives = |image: &&plan::Image| image.allocated.is_some() && !matches!(image.role, Role::Transient(_));
+        let written = |image: &&plan::Image| plan.steps.iter().any(|step| step.work.writes(image.id));
+        let parts = plan.images.iter().filter(outlives).filter(written).map(|image| image.id).collect();
+        let mut prepared = PreparedPlan { physical, steps, list, debugging, first: None, parts };
         prepared.prepare_frame(gpu, plan, 0)?;
         Ok(prepared)
     }
 
     /// Makes what frame `number` needs and no frame before it needed. Frames follow each other without gaps.
     pub(crate) fn prepare_frame(&mut self, gpu: &Arc<Gpu>, plan: &Plan, number: u64) -> Result<(), Error> {
+        // Commands tell shaders which part of an image they see.
+        let mut changed = false;
+        for image in &self.parts {
+            changed |= self.physical.write_part(plan.image(*image), number);
+        }
+        if changed {
+            self.forget_commands();
+        }
         let first = *self.first.get_or_insert(number);
         let repeats = number - first >= self.list.period;
         let frame = Frame {
@@ -91,7 +104,7 @@ impl PreparedPlan {
         self.steps.iter_mut().flat_map(PreparedStep::sets).for_each(PassSets::forget);
     }
 
-    /// Forgets all commands, since the Plan has other values.
+    /// Forgets all commands, since the Plan has other values, or images hold other parts.
     pub(crate) fn forget_commands(&mut self) {
         self.first = None;
         self.list.forget();

@@ -1,6 +1,6 @@
 //! How custom passes are recorded.
 
-use super::custom_image::{CustomImage, extent, named_buffer};
+use super::custom_image::{CustomImage, named_buffer};
 use crate::base::convert;
 use crate::commands::{TransferSide, barriers, copy_between, fill};
 use crate::gpu::Gpu;
@@ -198,7 +198,7 @@ impl<'f> CustomRecorder<'f> {
     fn side(&self, named: &NamedResource<'_>) -> TransferSide {
         match named {
             NamedResource::Image(access) => {
-                let extent = extent(self.frame.plan, access);
+                let extent = self.frame.extent(access.image, access.range.base_mip);
                 TransferSide::Image(self.frame.image_side(access.image, access.range, extent, access.layout))
             }
             NamedResource::Buffer(access) => {
@@ -214,7 +214,13 @@ impl<'f> CustomRecorder<'f> {
         let texels = |access: &Access| {
             let image = plan.image(access.image);
             let range = part(image, access.range);
-            (image.format, image.samples, extent(self.frame.plan, access), range.layers, range.aspects)
+            (
+                image.format,
+                image.samples,
+                self.frame.extent(access.image, access.range.base_mip),
+                range.layers,
+                range.aspects,
+            )
         };
         let rotation = |access: &Access| plan.image(access.image).rotation;
         let fits = |access: &Access, buffer: &BufferAccess| {

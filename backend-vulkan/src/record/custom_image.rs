@@ -3,7 +3,7 @@
 use crate::base::convert;
 use crate::prepare::{Frame, part};
 use ash::vk;
-use framewright_graph::plan::{self, Access, BufferAccess, Plan};
+use framewright_graph::plan::{self, Access, BufferAccess};
 use framewright_graph::vulkan::{Accesses, Rotation, Stages, Subresources};
 
 /// An image of a pass, for commands of the program's own.
@@ -37,7 +37,7 @@ impl CustomImage {
         Some(CustomImage {
             raw: frame.image(access.image).raw,
             range: part(plan.image(access.image), access.range),
-            extent: extent(plan, access),
+            extent: frame.extent(access.image, access.range.base_mip),
             rotation: plan.image(access.image).rotation,
             layout: convert::layout(access.layout),
             stages: access.stages,
@@ -53,9 +53,4 @@ pub(super) fn named_buffer(frame: &Frame<'_>, pass: &plan::Pass, name: &str) -> 
     };
     let access = pass.buffers.iter().find(is_named)?;
     Some(frame.buffer(access.buffer).raw)
-}
-
-/// Extent of the first mip level of what is accessed.
-pub(super) fn extent(plan: &Plan, access: &Access) -> [u32; 3] {
-    plan.image(access.image).extent.map(|side| side.unbounded_shr(access.range.base_mip).max(1))
 }

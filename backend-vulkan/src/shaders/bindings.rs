@@ -14,8 +14,14 @@ use rspirv::dr::{Instruction, Operand};
 use rspirv::spirv::{Decoration, Dim, ImageFormat, Op, StorageClass};
 use std::collections::HashSet;
 
-/// The block of push constants that tells which parts of images are in use; see shaders/include/part.glsl.
-const PARTS: &str = "FramewrightParts";
+/// The block of push constants that tells which parts of images are in use, and its variable: see shaders/include/part.glsl. Of HLSL's
+/// compilers each names the block in its own way.
+const PARTS: [&str; 2] = ["FramewrightParts", "framewright_parts"];
+
+/// Whether push constants of this name tell which parts of images are in use.
+pub(super) fn tells_parts(name: &str) -> bool {
+    PARTS.contains(&name)
+}
 
 /// The resources. In the pass's own set every declared one counts, since that is what a pipeline file binds; in the
 /// others only what is used, since include libraries declare more than one shader needs. `in_part`: push constants tell which
@@ -33,7 +39,7 @@ pub(super) fn bindings(
     for (variable, instruction) in module.variables() {
         if storage_class(instruction) == Some(StorageClass::PushConstant) && used.contains(&variable) {
             let ty = module.pointee(instruction).and_then(|ty| ty.result_id);
-            let own = in_part && ty.is_some_and(|ty| module.name(ty) == PARTS);
+            let own = in_part && ty.into_iter().chain([variable]).any(|id| tells_parts(module.name(id)));
             if own || program.pushes && stage.draws {
                 continue;
             }

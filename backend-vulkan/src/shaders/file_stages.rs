@@ -4,7 +4,7 @@ use super::by_command;
 use super::compilers::Compilers;
 use super::constants::Constants;
 use super::files::{ShaderFiles, SourceFile};
-use super::macros::{Macros, is_of_glsl};
+use super::macros::{Macros, in_hlsl, is_of_glsl};
 use super::module_file::ModuleFile;
 use super::stage_sources::{StageCode, StageSource};
 use super::text;
@@ -49,7 +49,11 @@ impl FileStage<'_> {
             entry: entry.map(str::to_owned),
             shown: found.shown.clone(),
             text: found.text.clone(),
-            macros: macros.iter().filter(|(name, _)| !is_of_glsl(name)).cloned().collect(),
+            macros: macros
+                .iter()
+                .filter(|(name, _)| !is_of_glsl(name))
+                .map(|(name, value)| (name.clone(), in_hlsl(value)))
+                .collect(),
         };
         let answer = compilers.compile(&job, found, files);
         let answer = answer.map_err(|problem| self.misspelt(entry, found, files).unwrap_or(problem))?;

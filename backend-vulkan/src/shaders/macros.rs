@@ -67,7 +67,12 @@ pub(super) fn macros(mentioned: &MentionedNames, variant: &Variant, stage: Shade
 
 /// Whether a macro means something in GLSL alone.
 pub(super) fn is_of_glsl(name: &str) -> bool {
-    name.starts_with(TEXTURE) || name == PARTS || name == "main" || name == "gl_InstanceIndex"
+    name.starts_with(TEXTURE) || name == "main" || name == "gl_InstanceIndex"
+}
+
+/// A macro's value in HLSL and Slang.
+pub(super) fn in_hlsl(value: &str) -> String {
+    value.replace("vec4(", "float4(")
 }
 
 /// One eye's part of an image that is used in halves. `left` is the left eye's part.

@@ -17,11 +17,11 @@ pub(super) const COMPONENTS: &str = "COMPONENTS_";
 /// Beginning of macros that are there if a pass reads the image that they name locally.
 pub(super) const LOCAL: &str = "LOCAL_READ_";
 
-/// Ending of macros that stand for the part in use of a sampled image.
+/// Ending of macros that stand for the part in use of an image.
 pub(super) const PART: &str = "_st";
 
 /// Names that a stage's text and its included files mention outside comments: behind [`TEXTURE`], [`HAS`] and [`COMPONENTS`], and,
-/// for its samplers, before [`PART`]. Each name stands once, in order. A name that the stage declares is its own.
+/// for its samplers and storage images, before [`PART`]. Each name stands once, in order. A name that the stage declares is its own.
 pub(super) struct MentionedNames {
     pub(super) adapting: Vec<String>,
     pub(super) optional: Vec<String>,
@@ -55,8 +55,11 @@ impl MentionedNames {
     fn by(text: &str) -> MentionedNames {
         let text = text::without_comments(text);
         let in_order: Vec<&str> = text::words(&text).collect();
-        let sampled = in_order.windows(2).filter(|pair| pair[0].contains("sampler") || pair[0].starts_with(TEXTURE));
-        let sampled: BTreeSet<&str> = sampled.map(|pair| pair[1]).collect();
+        let is_image = |word: &str| word.contains("sampler") || word.contains("image") || word.starts_with(TEXTURE);
+        let seen = in_order.windows(2).filter(|pair| is_image(pair[0])).map(|pair| pair[1]);
+        // Of HLSL a texel's type may stand between: `Texture2D<float4> source`.
+        let of_hlsl = in_order.windows(3).filter(|words| words[0].contains("Texture"));
+        let seen: BTreeSet<&str> = seen.chain(of_hlsl.flat_map(|words| [words[1], words[2]])).collect();
         let words: BTreeSet<&str> = in_order.into_iter().collect();
         let is_macro = |word: &&str| {
             [TEXTURE, HAS, COMPONENTS, LOCAL].iter().any(|beginning| word.starts_with(beginning))
@@ -68,7 +71,7 @@ impl MentionedNames {
         let behind =
             |beginning: &str| words().filter_map(|word| word.strip_prefix(beginning)).map(str::to_owned).collect();
         let parts = words().filter_map(|word| word.strip_suffix(PART));
-        let parts = parts.filter(|name| sampled.contains(name)).map(str::to_owned).collect();
+        let parts = parts.filter(|name| seen.contains(name)).map(str::to_owned).collect();
         let eye = words().any(|word| *word == "eye_index");
         let (adapting, optional, counted) = (behind(TEXTURE), behind(HAS), behind(COMPONENTS));
         let own = own.into_iter().map(str::to_owned).collect();
@@ -146,10 +149,13 @@ mod tests {
     }
 
     #[test]
-    fn only_what_is_sampled_has_a_part() {
+    fn only_what_is_an_image_has_a_part() {
         let text = "uniform sampler2D a; uniform TEXTURE_b b; in vec2 c; vec2 c_st = c * a_st.xy + b_st.zw; // d_st sampler2D d";
         assert_eq!(MentionedNames::by(text).parts, ["a", "b"]);
         assert_eq!(MentionedNames::by("usampler2DArray a ; vec4 x = e_st;").parts, [""; 0]);
+        let hlsl = "Texture2D<float4> a; Texture2D b; RWTexture2D<uint> c; float4 d = a_st + b_st + c_st + d_st;";
+        assert_eq!(MentionedNames::by(hlsl).parts, ["a", "b", "c"]);
+        assert_eq!(MentionedNames::by("uniform readonly uimage2D a; ivec2 b = imageSize(a) * a_st.xy;").parts, ["a"]);
     }
 
     #[test]

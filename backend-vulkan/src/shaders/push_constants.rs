@@ -1,5 +1,6 @@
 //! Push constants of other compilers' modules become the block of parameters: what a pass gives comes in a uniform block.
 
+use super::bindings::tells_parts;
 use super::module::id;
 use framewright_graph::shader::{BINDINGS, PARAMS, PASS_SET};
 use rspirv::dr::{Instruction, Module, Operand};
@@ -13,7 +14,11 @@ pub(super) fn as_params(module: &mut Module) {
     let is_pushed = |it: &Instruction| it.operands.first() == Some(&Operand::StorageClass(StorageClass::PushConstant));
     let variables = module.types_global_values.iter().filter(|it| it.class.opcode == Op::Variable && is_pushed(it));
     let variables: Vec<u32> = variables.filter_map(|it| it.result_id).collect();
-    if variables.is_empty() {
+    let told = module.debug_names.iter().any(|it| {
+        let of_these = it.class.opcode == Op::Name && id(it, 0).is_some_and(|id| variables.contains(&id));
+        of_these && matches!(it.operands.get(1), Some(Operand::LiteralString(name)) if tells_parts(name))
+    });
+    if variables.is_empty() || told {
         return;
     }
     for it in &mut module.types_global_values {

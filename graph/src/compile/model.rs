@@ -2,7 +2,7 @@
 
 use crate::device::{BufferDescriptor, ImageDescriptor};
 use crate::frame::tracked_parts::Grid;
-use crate::frame::{Cadence, EyeForm, ImageIndex, Resource, ViewIndex, allocated_extent};
+use crate::frame::{Cadence, EyeForm, ImageIndex, Resource, ViewIndex, allocated_extent, level_extent};
 use crate::plan::{AttachmentKind, InsertionCause, Note};
 use crate::vulkan::{
     AccessKind, Accesses, Aspects, BufferUsage, FillValue, Filter, Format, Layout, ResolveMode, Rotation, Sharing,
@@ -169,6 +169,11 @@ impl AdaptedFrame {
         if self.allocated.is_empty() { None } else { self.allocated.get(&resource).copied() }
     }
 
+    /// Width, height and depth of a mip level of a physical image: of its part in use, if more is allocated.
+    pub(super) fn extent_at(&self, resource: PhysicalIndex, image: &ImageDescriptor, mip: u32) -> [u32; 3] {
+        level_extent(image.extent, self.allocated(resource), mip)
+    }
+
     /// How a physical image holds both eyes' parts, if it does.
     pub(super) fn eyes(&self, resource: PhysicalIndex) -> Option<EyeForm> {
         if self.eyes.is_empty() { None } else { self.eyes.get(&resource).map(|(form, _)| *form) }
@@ -196,6 +201,17 @@ impl AdaptedFrame {
         match &self.resources[resource as usize].kind {
             Kind::Buffer(buffer) => buffer.bytes,
             Kind::Image(image) => image.bytes(part).saturating_mul(EyeForm::parts(self.eyes(resource))),
+        }
+    }
+
+    /// Bytes of a buffer, or of a part of an image as it is allocated.
+    pub(super) fn most_bytes(&self, resource: PhysicalIndex, part: Subresources) -> u64 {
+        match (&self.resources[resource as usize].kind, self.allocated(resource)) {
+            (Kind::Image(image), Some(allocated)) => {
+                let all = ImageDescriptor { extent: allocated_extent(image.extent, Some(allocated)), ..*image };
+                all.bytes(part).saturating_mul(EyeForm::parts(self.eyes(resource)))
+            }
+            _ => self.bytes(resource, part),
         }
     }
 

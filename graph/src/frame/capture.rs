@@ -106,7 +106,6 @@ pub fn capture_name(number: usize) -> String {
 fn no_capture(image: &Image, range: Subresources) -> Option<&'static str> {
     let all = Subresources { aspects: range.aspects, ..image.whole() };
     match () {
-        () if image.allocated.is_some() => Some("its size changes from frame to frame"),
         () if image.samples == 1 => None,
         () if range.aspects.contains(Aspects::STENCIL) => Some("it has several samples, and stencil can't be resolved"),
         () if range != all => Some("it has several samples, and a part of it can't be resolved"),
@@ -146,6 +145,7 @@ fn copy_of(image: &Image, range: Subresources, name: &str) -> Image {
         name: name.into(),
         span: Span::NONE,
         extent: image.extent_at(range.base_mip),
+        allocated: image.allocated_at(range.base_mip),
         shape: if image.shape == Shape::Cube { Shape::D2 } else { image.shape },
         mips: 1,
         layers: range.layers,

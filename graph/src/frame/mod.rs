@@ -41,11 +41,11 @@ pub use jitter::{Jitter, LONGEST as LONGEST_JITTER};
 pub use note_kind::NoteKind;
 pub use output::Output;
 pub use param::{FrameValue, ParamValue};
-pub(crate) use part::TargetShape;
+pub(crate) use part::{TargetShape, allocated_at};
 pub use pass::Pass;
 pub use raster::{BlendEquation, DepthBias, RasterState};
-pub(crate) use resource::allocated_extent;
 pub use resource::{Buffer, ChosenFormat, Image, Lifetime, Resolve, ResolveWay, SAMPLE_COUNTS};
+pub(crate) use resource::{allocated_extent, least_part, level_extent};
 pub use texture::{
     ColorSpace, NoTextures, TextureFile, TextureInfo, TextureProblem, Textures, WantedTexels, becomes, format_problem,
     picture_extent,

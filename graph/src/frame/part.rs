@@ -1,6 +1,6 @@
 //! Parts of images: the meaning of a range for one image, and the properties that attachments share.
 
-use super::{EyeForm, Image};
+use super::{EyeForm, Image, allocated_extent, level_extent};
 use crate::vulkan::{Aspects, Subresources, extent_at};
 
 /// The properties that all attachments of a pass share.
@@ -8,7 +8,7 @@ use crate::vulkan::{Aspects, Subresources, extent_at};
 pub(crate) struct TargetShape {
     /// Width, height and depth of the mip level.
     pub(crate) extent: [u32; 3],
-    /// The allocated width and height, if its size may change.
+    /// The allocated width and height of the mip level, if its size may change.
     pub(crate) allocated: Option<[u32; 2]>,
     /// How it holds both eyes' parts, if it does.
     pub(crate) eyes: Option<EyeForm>,
@@ -16,10 +16,21 @@ pub(crate) struct TargetShape {
     pub(crate) samples: u32,
 }
 
+/// The allocated width and height of a mip level, if its size may change.
+pub(crate) fn allocated_at(extent: [u32; 3], allocated: Option<[u32; 2]>, mip: u32) -> Option<[u32; 2]> {
+    let [width, height, _] = extent_at(allocated_extent(extent, Some(allocated?)), mip);
+    Some([width, height])
+}
+
 impl Image {
-    /// Width, height and depth of a mip level in texels.
+    /// Width, height and depth of a mip level in texels: of its part in use, if more is allocated.
     pub(crate) fn extent_at(&self, mip: u32) -> [u32; 3] {
-        extent_at(self.extent, mip)
+        level_extent(self.extent, self.allocated, mip)
+    }
+
+    /// The allocated width and height of a mip level, if its size may change.
+    pub(crate) fn allocated_at(&self, mip: u32) -> Option<[u32; 2]> {
+        allocated_at(self.extent, self.allocated, mip)
     }
 
     /// All of it, planes named.
@@ -57,7 +68,8 @@ impl Image {
     /// The shape that `range` of the image, one mip level, demands of the attachments beside it.
     pub(crate) fn target_shape(&self, range: Subresources) -> TargetShape {
         let Subresources { base_mip, layers, .. } = self.part(range);
-        let Image { allocated, eyes, samples, .. } = *self;
-        TargetShape { extent: self.extent_at(base_mip), allocated, eyes, layers, samples }
+        let Image { eyes, samples, .. } = *self;
+        let (extent, allocated) = (self.extent_at(base_mip), self.allocated_at(base_mip));
+        TargetShape { extent, allocated, eyes, layers, samples }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{EyeForm, Resource, TextureFile};
 use crate::base::Span;
-use crate::vulkan::{FillValue, Format, Layout, ResolveMode, Rotation, Shape, State};
+use crate::vulkan::{FillValue, Format, Layout, ResolveMode, Rotation, Shape, State, extent_at};
 use std::sync::Arc;
 
 /// The numbers of samples a texel that an image can be asked to have.
@@ -22,8 +22,8 @@ pub struct Image {
     /// Width, height, depth in texels, each at least 1: of the part in use, if more is allocated.
     pub extent: [u32; 3],
     /// The allocated width and height if `extent` may change from frame to frame, both at least as much as that: the part
-    /// in use begins in the upper left corner. `None`: the allocated extent is `extent`. Flat, transient images of one mip
-    /// level may have one of their own.
+    /// in use begins in the upper left corner. `None`: the allocated extent is `extent`. Flat images that are transient or
+    /// have history may have one of their own.
     pub allocated: Option<[u32; 2]>,
     /// The rotation of its contents; `extent` and `allocated` are those of the turned picture then. The compiler turns
     /// images for [`Output::rotation`](super::Output::rotation): in frames that it is given, no image is turned.
@@ -95,6 +95,24 @@ impl Image {
 /// Width, height and depth of an image of which a part is in use.
 pub(crate) fn allocated_extent(part: [u32; 3], allocated: Option<[u32; 2]>) -> [u32; 3] {
     allocated.map_or(part, |[width, height]| [width, height, part[2]])
+}
+
+/// The least part in use, in texels. A linear filter reads two texels in each direction, one of them possibly with weight 0:
+/// both must be drawn, since 0 times an undrawn value need not be 0.
+const LEAST_PART: u32 = 2;
+
+/// Width, height and depth of the part in use, at least as much as a linear filter needs, if `allocated` has room for that.
+pub(crate) fn least_part(part: [u32; 3], allocated: [u32; 2]) -> [u32; 3] {
+    let side = |side: usize| part[side].max(allocated[side].min(LEAST_PART));
+    [side(0), side(1), part[2]]
+}
+
+/// Width, height and depth of mip level number `mip` of an image with this extent; if more is allocated, of the level's part in use.
+pub(crate) fn level_extent(extent: [u32; 3], allocated: Option<[u32; 2]>, mip: u32) -> [u32; 3] {
+    let level = extent_at(extent, mip);
+    let Some(allocated) = allocated else { return level };
+    let [width, height, _] = extent_at(allocated_extent(extent, Some(allocated)), mip);
+    least_part(level, [width, height])
 }
 
 /// How several samples of an image become one value.
@@ -177,6 +195,11 @@ impl Lifetime {
     /// Whether contents of earlier frames can be found in it.
     pub(crate) fn outlives_frame(&self) -> bool {
         !matches!(self, Lifetime::Transient)
+    }
+
+    /// Whether a frame finds contents in it that the frame didn't write. With history each frame writes it anew.
+    pub(crate) fn is_kept(&self) -> bool {
+        !matches!(self, Lifetime::Transient | Lifetime::History { .. })
     }
 
     /// Whether `of`, which lives so, has contents before the first pass.

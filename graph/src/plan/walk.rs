@@ -1,6 +1,6 @@
 //! One walk of a Plan: the passes, attachments, sides and resources of a step, for everybody who looks at steps.
 
-use super::{Attachment, AttachmentKind, Cause, Pass, RenderScope, Resource, Side, Step, Work};
+use super::{Access, Attachment, AttachmentKind, Cause, ImageId, Pass, RenderScope, Resource, Side, Step, Work};
 use crate::vulkan::Subresources;
 use std::slice;
 use std::sync::Arc;
@@ -163,6 +163,23 @@ impl Work {
             std::iter::once(image(attachment.image, attachment.range)).chain(resolve)
         });
         of_passes.chain(attached).chain(self.sides().map(|side| (side.resource(), side.range())))
+    }
+
+    /// Whether it writes some of an image.
+    #[must_use]
+    pub fn writes(&self, image: ImageId) -> bool {
+        let stored = |access: &Access| access.image == image && !access.accesses.writes().is_empty();
+        let attached = |attachment: &Attachment| {
+            attachment.image == image || attachment.resolve.as_ref().is_some_and(|resolve| resolve.image == image)
+        };
+        let moved = match self {
+            Work::Resolve(transfer) | Work::Copy(transfer) | Work::Blit(transfer) => Some(transfer.target),
+            Work::Fill(fill) => Some(fill.target),
+            Work::Render(_) | Work::Dispatch(_) | Work::Custom(_) | Work::Export => None,
+        };
+        moved.is_some_and(|side| side.resource() == Resource::Image(image))
+            || self.attachments().any(attached)
+            || self.passes().iter().flat_map(|pass| &pass.accesses).any(stored)
     }
 }
 

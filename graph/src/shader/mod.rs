@@ -93,7 +93,7 @@ pub struct ShaderInterface {
     pub workgroup_size: Option<[u32; 3]>,
     /// The parts of it that go wrong where the picture that it draws is turned, as far as that can be told.
     pub unturned: Vec<UnturnedPart>,
-    /// Names of sampled images whose part in use it asks for, by mentioning `NAME_st`.
+    /// Names of sampled images and storage images whose part in use it asks for, by mentioning `NAME_st`.
     pub asks_part: Vec<String>,
     /// The pass's blocks with matrices by which the vertex stage may place vertices, if no stage asks which eye it draws for: both
     /// eyes then see the same.

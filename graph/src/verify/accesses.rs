@@ -9,10 +9,11 @@
 //! that is promised to, a resolve, a whole copy, and every write without attachments. Undefined contents stay so, in part, after any other.
 
 use super::lookup::Scope;
+use super::part_in_use::mip_extent;
 use super::parts::overlap;
 use super::program::Builder;
 use super::scopes::{PairSet, StageSet};
-use super::work::{is_attached, mip_extent};
+use super::work::is_attached;
 use crate::frame::{Blend, Draw};
 use crate::plan::{self, Attachment, AttachmentKind, BufferId, ImageId, Pass, RenderScope, Side, Transfer, Work};
 use crate::vulkan::{

@@ -30,6 +30,7 @@ mod memory;
 mod names;
 mod owners;
 mod ownership;
+mod part_in_use;
 mod parts;
 mod passes;
 mod program;

@@ -4,6 +4,7 @@ use super::findings::{Findings, name, role};
 use super::frames::{self, Frames};
 use super::layouts;
 use super::names::Names;
+use super::part_in_use::{self, made_extent};
 use super::violation::{Rule, Violation};
 use crate::frame::format_problem;
 use crate::plan::names::ShownText;
@@ -67,7 +68,7 @@ pub(super) fn check(plan: &Plan, found: &mut Findings) -> Option<Frames> {
 
 fn check_image(plan: &Plan, image: &Image, found: &mut Findings) {
     let mut wrong = |what: &str| found.structure(None, Some(image.id.0), what);
-    let largest = image.extent.into_iter().max().unwrap_or(0);
+    let largest = made_extent(image, 0).into_iter().max().unwrap_or(0);
     if image.extent.contains(&0) || image.layers == 0 || image.mips == 0 {
         wrong("is empty");
     } else if image.mips > largest.ilog2() + 1 {
@@ -87,18 +88,10 @@ fn check_image(plan: &Plan, image: &Image, found: &mut Findings) {
     if !fits || image.shape == Shape::Cube && image.samples > 1 {
         wrong("has a size, layers or samples that its shape can't have");
     }
-    if let Some([width, height]) = image.allocated {
-        if width < image.extent[0] || height < image.extent[1] {
-            wrong("uses more than it has room for");
-        }
-        if image.shape != Shape::D2 || image.mips > 1 {
-            wrong("changes its size and is deep, a cube or has several mip levels");
-        }
-        // A reader outside of the frame, or one that reads the whole image, would see texels that no pass wrote.
-        if !matches!(image.role, Role::Transient(_)) || image.usage.contains(Usage::STORAGE) {
-            wrong("changes its size and outlives the frame, or is used as storage");
-        }
+    if let Some(allocated) = image.allocated {
+        part_in_use::check(image, allocated, found);
     }
+    let mut wrong = |what: &str| found.structure(None, Some(image.id.0), what);
     if Usage::from_bits(image.usage.bits()).is_none() {
         wrong("has a usage that is not known");
     }

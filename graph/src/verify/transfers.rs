@@ -1,9 +1,10 @@
 //! Whether copies, blits, resolves and fills are well formed.
 
 use super::layouts::planes;
+use super::part_in_use::{made_extent, may_have_another_size, mip_extent};
 use super::parts::overlap;
 use super::structure::{fill_fits, is_of_file};
-use super::work::{Check, mip_extent};
+use super::work::Check;
 use crate::plan::{BufferId, Fill, Image, ImageId, Queue, Side, Transfer};
 use crate::vulkan::{Aspects, Component, FillValue, Filter, Format, Layout, Subresources};
 
@@ -42,8 +43,7 @@ impl<'p> Check<'_, 'p> {
         self.demand(!(filtered && nearest), from.id, "has depth or integers, which can't be filtered");
         // The outermost places that are looked up lie half a step of the target's from the edge of the source's part: nearer to
         // the edge than the middle of its outermost texel if the source is enlarged.
-        let all = mip_extent(from, source.range.base_mip);
-        let made = from.allocated.map_or(all, |[width, height]| [width, height, all[2]]);
+        let made = made_extent(from, source.range.base_mip);
         let mixes = (0..3).any(|axis| source.extent[axis] < made[axis] && target.extent[axis] > source.extent[axis]);
         self.demand(!(filtered && mixes), from.id, "is enlarged, and texels beyond the part in use are mixed in");
     }
@@ -133,6 +133,8 @@ impl<'p> Check<'_, 'p> {
         let all = mip_extent(described, range.base_mip);
         let within = all.iter().zip(&extent).all(|(all, part)| part <= all) && !extent.contains(&0);
         self.demand(within, image, "is transferred beyond its size");
+        let earlier = source && may_have_another_size(plan, described);
+        self.demand(!earlier, image, "is copied from, and had another size in the frame that made it");
         self.demand(source || !is_of_file(described), image, "is written, and its contents are a file's");
         Some(ImageSide { image: described, range, extent })
     }

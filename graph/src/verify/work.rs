@@ -8,6 +8,7 @@ use super::findings::{Finding, Findings};
 use super::layouts::planes;
 use super::lookup::Scopes;
 use super::names::Names;
+use super::part_in_use::mip_extent;
 use super::parts::overlap;
 use super::program::{Builder, Program};
 use super::structure::clear_fits;
@@ -334,9 +335,4 @@ pub(super) const fn is_read_only(layout: Layout) -> bool {
         layout,
         Layout::DepthStencilReadOnlyOptimal | Layout::DepthReadOnlyOptimal | Layout::StencilReadOnlyOptimal
     )
-}
-
-/// Width, height and depth of a mip level.
-pub(super) fn mip_extent(image: &Image, mip: u32) -> [u32; 3] {
-    image.extent.map(|texels| texels.checked_shr(mip).unwrap_or(0).max(1))
 }

@@ -16,8 +16,8 @@ room! {
 
     /// An image that changes its size is used as none can be.
     ///
-    /// Such an image (`Dynamic(by: …, up_to: …)`) has room for its largest size, lives for one frame, is flat, has one mip level,
-    /// and doesn't leave the frame. Scale it into an image of a fixed size, and go on with that.
+    /// Such an image (`Dynamic(by: …, up_to: …)`) has room for its largest size, is flat, and each frame writes it anew: it is transient,
+    /// or has `lifetime: History`. Scale it into an image of a fixed size, and go on with that.
     DYNAMIC_SIZE = 603,
 
     /// The sample count can't be one.
@@ -142,4 +142,17 @@ room! {
     /// KTX2 files of ETC1S or UASTC have to be transcoded to a format that devices have, which isn't done yet. Store the texture in
     /// such a format: BC7 for desktop devices, ASTC or ETC2 for mobile ones. A format that a device lacks is decoded.
     TEXTURE_BASIS = 625,
+
+    /// An earlier picture of an image that changes its size is copied or scaled.
+    ///
+    /// Such an image (`Dynamic(by: …, up_to: …)`) may have had another size in that frame, and a copy moves as many texels in each frame.
+    /// A shader that samples it is told how large it was: draw it, as the shader `copy` does.
+    /// Wrong: `(name: "keep", copy: (from: (image: "color", previous: 1), to: "kept"))`.
+    /// Mended: `(name: "keep", draw: FullScreen("copy"), sample: {"source": (image: "color", previous: 1)}, color: ["kept"])`.
+    EARLIER_SIZE = 626,
+
+    /// An image that changes its size is shown in a window.
+    ///
+    /// A window has a size of its own, and shows all of an image. Scale what is drawn into an image of the size `Output`.
+    SHOWN_SIZE = 627,
 }

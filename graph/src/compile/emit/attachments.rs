@@ -80,10 +80,10 @@ fn local_passes(results: &StageResults<'_>, scope: &Scope, attachments: &[Attach
 pub(super) fn shape(results: &StageResults<'_>, scope: &Scope) -> ([u32; 2], u32, u32) {
     let resources = &results.adapted.resources;
     let first = scope.targets().next();
-    let shape = first.and_then(|target| Some((resources[target.resource as usize].image()?, target.range)));
-    shape.map_or(([1, 1], 1, 1), |(image, range)| {
-        let [width, height, _] = image.extent_at(range.base_mip);
-        ([width, height], range.layers, image.samples)
+    let shape = first.and_then(|target| Some((resources[target.resource as usize].image()?, target)));
+    shape.map_or(([1, 1], 1, 1), |(image, target)| {
+        let [width, height, _] = results.adapted.extent_at(target.resource, image, target.range.base_mip);
+        ([width, height], target.range.layers, image.samples)
     })
 }
 

@@ -90,7 +90,8 @@ fn side(results: &StageResults<'_>, used: &Use) -> Side {
     match &resource.kind {
         Kind::Image(image) => {
             let range = results.adapted.range(used);
-            let (image, extent) = (ImageId(resource.id), image.extent_at(range.base_mip));
+            let (image, extent) =
+                (ImageId(resource.id), results.adapted.extent_at(used.resource, image, range.base_mip));
             Side::Image { image, range, extent, layout: used.layout }
         }
         Kind::Buffer(buffer) => Side::Buffer { buffer: BufferId(resource.id), bytes: buffer.bytes },

@@ -127,14 +127,14 @@ fn follow_each_other(steps: &mut [(u32, [u32; 2])]) {
     }
 }
 
-/// Bytes that a step reads and writes. An attachment counts once, however many passes of the scope draw into it.
+/// Bytes that a step reads and writes at most: what changes its size from frame to frame keeps its queue. An attachment counts once, however many passes of the scope draw into it.
 fn work(adapted: &AdaptedFrame, step: &Step) -> u64 {
     let attachments = if let Step::Scope(scope) = step { Some(scope.targets()) } else { None };
-    let attachments = attachments.into_iter().flatten().map(|target| adapted.bytes(target.resource, target.range));
+    let attachments = attachments.into_iter().flatten().map(|target| adapted.most_bytes(target.resource, target.range));
     let in_memory = uses_of(adapted, step).filter(|used| !used.role.is_attachment() && !used.role.is_input());
     let others = in_memory.map(|used| {
         let times = u64::from(used.reads) + u64::from(used.writes);
-        adapted.bytes(used.resource, adapted.range(used)).saturating_mul(times)
+        adapted.most_bytes(used.resource, adapted.range(used)).saturating_mul(times)
     });
     attachments.chain(others).fold(0, u64::saturating_add)
 }

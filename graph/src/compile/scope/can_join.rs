@@ -2,7 +2,7 @@
 
 use super::step::{Scope, Target, colors_of, plane_of};
 use crate::compile::model::{AdaptedFrame, InitialContents, PhysicalIndex, Role, Use};
-use crate::frame::{Cadence, TargetShape};
+use crate::frame::{Cadence, TargetShape, allocated_at};
 use crate::vulkan::{Aspects, Subresources};
 
 /// Why a pass can't join the scope before it.
@@ -143,7 +143,8 @@ impl Scope {
 /// Properties that the attachments of one scope have in common, as the device makes them.
 fn shape(adapted: &AdaptedFrame, target: Target) -> Option<TargetShape> {
     let image = adapted.resources[target.resource as usize].image()?;
-    let (allocated, eyes) = (adapted.allocated(target.resource), adapted.eyes(target.resource));
-    let (extent, layers) = (image.extent_at(target.range.base_mip), target.range.layers);
+    let (mip, layers) = (target.range.base_mip, target.range.layers);
+    let (extent, eyes) = (adapted.extent_at(target.resource, image, mip), adapted.eyes(target.resource));
+    let allocated = allocated_at(image.extent, adapted.allocated(target.resource), mip);
     Some(TargetShape { extent, allocated, eyes, layers, samples: image.samples })
 }

@@ -6,6 +6,7 @@ mod pass;
 
 use crate::base::{Code, Diagnostic, Span};
 use crate::frame::{Buffer, Frame, Image, Lifetime, Output, Resource, Stereo, check};
+use crate::vulkan::Layout;
 use crate::vulkan::states::{StateTime, Subject};
 use pass::{Check, wrong_clear};
 
@@ -154,12 +155,14 @@ fn outputs(frame: &Frame, errors: &mut Vec<Diagnostic>) {
         if let Resource::Image(image) = output.resource
             && let image = &frame.images[image.0 as usize]
             && image.allocated.is_some()
+            && output.after.is_some_and(|after| after.layout == Layout::PresentSrcKhr)
         {
-            // No file declares a dumped image as an output.
+            // The program may ask for a state by itself.
             let span = if output.span == Span::NONE { image.span } else { output.span };
-            let message = format!("`{}` can't leave the frame: its size may change from frame to frame", subject.name);
-            let help = "scale it into an image of a fixed size, and let that leave the frame";
-            errors.push(Diagnostic::new(Code::DYNAMIC_SIZE, span, message).help(help));
+            let message =
+                format!("`{}` can't be shown in a window: its size may change from frame to frame", subject.name);
+            let help = "scale it into an image of the size `Output`, and show that";
+            errors.push(Diagnostic::new(Code::SHOWN_SIZE, span, message).help(help));
         }
         errors.extend(wrong_encoding(frame, output));
         // Samples are resolved on the way out.

@@ -263,11 +263,6 @@ impl Check<'_> {
                     &format!("accesses `{}` as storage, which has several samples", image.name),
                 );
             }
-            if image.allocated.is_some() {
-                let what =
-                    format!("accesses `{}` as storage, which changes its size: it can be drawn into", image.name);
-                self.wrong(Code::DYNAMIC_SIZE, storage.span, &what);
-            }
             let meets =
                 |other: ImageIndex, range: Subresources| other == storage.image && image.overlap(range, storage.range);
             let others = pass.storage.iter().take(at).any(|other| meets(other.image, other.range))

@@ -165,7 +165,12 @@ impl Declaration for language::Image {
         }
     }
 
-    fn outlives_frame(&self) -> bool {
-        !matches!(self.lifetime.value, language::Lifetime::Transient)
+    fn is_kept(&self) -> bool {
+        use language::Lifetime::{File, History, Imported, Like, Persistent, Transient};
+        match self.lifetime.value {
+            // The frame's own images are checked once it is known what they follow.
+            Transient | History { .. } | Like(_) => false,
+            Persistent { .. } | Imported { .. } | File(_) => true,
+        }
     }
 }

@@ -1,8 +1,8 @@
 //! Shape, layers and mip levels of an image.
 
 use crate::base::Diagnostic;
-use crate::frame::Image;
 use crate::frame::check::images;
+use crate::frame::{Image, allocated_extent};
 use crate::language::{self, ImageShape as Described, Layers};
 use crate::vulkan::Shape;
 
@@ -43,7 +43,7 @@ pub(super) fn shaped(
     image.layers = layers;
     image.mips = match levels {
         Levels::Count(count) => count,
-        Levels::Full => images::most_levels(image.extent),
+        Levels::Full => images::most_levels(allocated_extent(image.extent, image.allocated)),
     };
     let before = errors.len();
     images::check(&image, described, errors);

@@ -356,27 +356,11 @@ impl Check<'_> {
             return self.half(interface, errors);
         }
         let declared = self.resources.declared(self.sample.part.image.index).size.span;
+        let seen = (self.shader, &**name, &self.sample.part);
+        let by = format!("uv_adjust(uv, {name}_st)");
+        errors.extend(not_asked(self.resources, interface, seen, ["samples", &by]));
         if element_of(name).is_some() {
-            let message = format!(
-                "only a part of `{}` is in use, and shader `{}` can't be told which of the elements of `{}` are so",
-                image.name,
-                self.shader,
-                declared_name(name)
-            );
-            let wrong = Diagnostic::new(Code::PART_NOT_ASKED, self.sample.part.image.span, message)
-                .label(declared, "its size may change");
-            errors.push(wrong.help("give it a fixed size, or declare an image of its own in the shader"));
             return;
-        }
-        if !interface.asks_part.iter().any(|asked| **asked == **name) {
-            let message = format!(
-                "shader `{}` samples `{name}` and doesn't ask which part of `{}` is in use",
-                self.shader, image.name
-            );
-            let wrong = Diagnostic::new(Code::PART_NOT_ASKED, self.sample.part.image.span, message)
-                .label(declared, "its size may change");
-            let help = format!("include `include/part.glsl` and look it up by `uv_adjust(uv, {name}_st)`");
-            errors.push(wrong.help(help));
         }
         if let Some(address) = self.sample.address.filter(|address| address.value != AddressMode::ClampToEdge) {
             let message = format!("`{}` is used in part, and beyond that it holds nothing", image.name);
@@ -431,9 +415,12 @@ impl Check<'_> {
             return;
         };
         let Some(target) = resources.image(target).map(|target| &target.image) else { return };
-        let (own, drawn) = (image.extent_at(self.part.base_mip), target.target_shape(range).extent);
-        if (&own[..2], image.allocated) != (&drawn[..2], target.allocated) || self.part.mips > 1 || self.part.layers > 1
-        {
+        let (own, drawn) = (image.target_shape(self.part), target.target_shape(range));
+        let sizes = [own.extent, drawn.extent];
+        let same = (&sizes[0][..2], own.allocated) == (&sizes[1][..2], drawn.allocated);
+        let another = self.sample.part.previous.is_some() && own.allocated.is_some();
+        if !same || another || self.part.mips > 1 || self.part.layers > 1 {
+            let [own, drawn] = sizes;
             let message = format!(
                 "`{}` can't be read at the fragment's own position: it isn't the size of what pass `{}` draws into",
                 image.name, self.pass.name.text
@@ -447,13 +434,39 @@ impl Check<'_> {
     }
 }
 
+/// The mistake of a shader that samples or reads the image `part` as `name`, of which only a part is in use, and doesn't ask for that part;
+/// `None` if it asks. `by`: how it could find the part.
+pub(super) fn not_asked(
+    resources: &Resources<'_>,
+    interface: &ShaderInterface,
+    (shader, name, part): (&str, &str, &language::ImagePart),
+    [reads, by]: [&str; 2],
+) -> Option<Diagnostic> {
+    let (image, span) = (&resources.declared(part.image.index).name.text, part.image.span);
+    let wrong = |message: String, help: String| {
+        let declared = resources.declared(part.image.index).size.span;
+        Some(Diagnostic::new(Code::PART_NOT_ASKED, span, message).label(declared, "its size may change").help(help))
+    };
+    if element_of(name).is_some() {
+        let array = declared_name(name);
+        let message = format!(
+            "only a part of `{image}` is in use, and shader `{shader}` can't be told which of the elements of `{array}` are so"
+        );
+        return wrong(message, "give it a fixed size, or declare an image of its own in the shader".to_owned());
+    }
+    if interface.asks_part.iter().any(|asked| **asked == *name) {
+        return None;
+    }
+    let message = format!("shader `{shader}` {reads} `{name}` and doesn't ask which part of `{image}` is in use");
+    wrong(message, format!("include `include/part.glsl` and look it up by `{by}`"))
+}
+
 /// A shader can be told of some parts only.
 fn too_many_parts(resources: &Resources<'_>, pass: &language::Pass, errors: &mut Vec<Diagnostic>) {
-    if let Some(surplus) = variant::in_part(resources, pass).nth(MOST_PARTS) {
-        let message = format!("pass `{}` samples more than {MOST_PARTS} images that are used in part", pass.name.text);
+    if let Some((_, surplus)) = variant::in_part(resources, pass).nth(MOST_PARTS) {
+        let message = format!("pass `{}` sees more than {MOST_PARTS} images that are used in part", pass.name.text);
         errors.push(
-            Diagnostic::new(Code::PART_NOT_ASKED, surplus.part.image.span, message)
-                .help("give some of them a fixed size"),
+            Diagnostic::new(Code::PART_NOT_ASKED, surplus.image.span, message).help("give some of them a fixed size"),
         );
     }
 }

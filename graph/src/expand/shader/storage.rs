@@ -138,6 +138,16 @@ pub(in crate::expand) fn check<'i>(
                 let Some(given) = lowered.storage.iter().find(|given| given.binding == name.text) else { continue };
                 let check = ImageCheck { resources, shader, name: &name.text, image, part };
                 check.fits(given.range, *shape, *format, errors);
+                // What is stored beyond the part nobody sees.
+                if image.allocated.is_some() && kind.and_then(BindingKind::storage).is_some_and(|(reads, _)| reads) {
+                    let by = format!("part_extent(imageSize({0}), {0}_st)", name.text);
+                    errors.extend(sampled_images::not_asked(
+                        resources,
+                        interface,
+                        (shader, &name.text, part),
+                        ["reads", &by],
+                    ));
+                }
             }
             (Part::Buffer(part), Some(BindingKind::StorageBlock { bytes, .. })) => {
                 let what = format!("the members of the block `{}`", name.text);

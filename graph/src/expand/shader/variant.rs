@@ -5,6 +5,7 @@ use crate::base::Diagnostic;
 use crate::expand::resources::{Resources, parts};
 use crate::frame::{Image, Pass};
 use crate::language::{self, Face};
+use crate::ron::Name;
 use crate::shader::Variant;
 use crate::vulkan::{Aspects, Component, ImageShape, Subresources};
 use std::sync::Arc;
@@ -18,7 +19,7 @@ pub(in crate::expand) fn of(resources: &Resources<'_>, pass: &language::Pass) ->
     };
     let mut sampled: Vec<Arc<str>> = pass.sample.iter().map(|sample| sample.binding.text.clone()).collect();
     Variant::name_arrays(&mut sampled);
-    let parts = in_part(resources, pass).map(|sample| sample.binding.text.clone()).collect();
+    let parts = in_part(resources, pass).map(|(binding, _)| binding.text.clone()).collect();
     let textures = pass.sample.iter().filter_map(texture).collect();
     let components = pass.sample.iter().filter_map(|sample| {
         let image = &resources.image(sample.part.image.index)?.image;
@@ -45,14 +46,18 @@ pub(in crate::expand) fn of(resources: &Resources<'_>, pass: &language::Pass) ->
     }
 }
 
-/// Samples of a pass whose image is only partly in use.
+/// Images of a pass that its shader sees and that are only partly in use, each with the shader's name.
 pub(super) fn in_part<'p>(
     resources: &'p Resources,
     pass: &'p language::Pass,
-) -> impl Iterator<Item = &'p language::Sample> {
-    let allocated =
-        |sample: &&language::Sample| resources.image(sample.part.image.index).and_then(|image| image.image.allocated);
-    pass.sample.iter().filter(move |sample| allocated(sample).is_some())
+) -> impl Iterator<Item = (&'p Name, &'p language::ImagePart)> {
+    let stored = pass.storage.iter().filter_map(|storage| match &storage.part {
+        language::Part::Image(part) => Some((&storage.binding, part)),
+        language::Part::Buffer(_) => None,
+    });
+    let seen = pass.sample.iter().map(|sample| (&sample.binding, &sample.part)).chain(stored);
+    let allocated = |part: &language::ImagePart| resources.image(part.image.index)?.image.allocated;
+    seen.filter(move |(_, part)| allocated(part).is_some())
 }
 
 /// Whether the alpha that a pass draws says how many samples are covered: its targets have several.

@@ -2,7 +2,7 @@
 
 use super::Property;
 use crate::base::{Code, Diagnostic, Span};
-use crate::frame::{Image, SAMPLE_COUNTS};
+use crate::frame::{Image, SAMPLE_COUNTS, allocated_extent};
 use crate::vulkan::{Encoding, Shape};
 
 /// The declaration of an image.
@@ -10,8 +10,8 @@ pub(crate) trait Declaration {
     /// Where one of its properties is, and the cause of the property in words: "msaa = 4"; empty if it has none.
     fn at(&self, property: Property) -> (Span, &str);
 
-    /// Whether contents of earlier frames can be found in it.
-    fn outlives_frame(&self) -> bool;
+    /// Whether a frame finds contents in it that the frame didn't write.
+    fn is_kept(&self) -> bool;
 }
 
 /// A program declares an image in no file.
@@ -20,8 +20,8 @@ impl Declaration for Image {
         (self.span, "")
     }
 
-    fn outlives_frame(&self) -> bool {
-        self.lifetime.outlives_frame()
+    fn is_kept(&self) -> bool {
+        self.lifetime.is_kept()
     }
 }
 
@@ -61,12 +61,15 @@ pub(crate) fn check(image: &Image, declared: &impl Declaration, errors: &mut Vec
         let what = format!("is {width}×{height}×{depth}; each side has at least 1 texel");
         return errors.push(wrong(Code::SIZE_OUTSIDE, Property::Size, what));
     }
-    if mips != 1 && !(1..=most_levels(extent)).contains(&mips) {
-        let most = most_levels(extent);
+    // A part in use has as many levels as all of the image.
+    let [width, height, depth] = allocated_extent(extent, allocated);
+    if mips != 1 && !(1..=most_levels([width, height, depth])).contains(&mips) {
+        let most = most_levels([width, height, depth]);
         let extent = if depth > 1 { format!("{width}×{height}×{depth}") } else { format!("{width}×{height}") };
         let what = format!("can't have {mips} mip levels: {extent} texels have {most}");
         errors.push(wrong(Code::MIP_LEVELS, Property::Mips, what).help("write `Full`: as many as there are"));
     }
+    let [width, height, depth] = extent;
     if shape == Shape::Cube && width != height {
         let what = format!("is a cube, but its sides are {width}×{height}");
         errors.push(wrong(Code::SHAPE, Property::Size, what).help("the sides of a cube are square"));
@@ -98,9 +101,9 @@ pub(crate) fn check(image: &Image, declared: &impl Declaration, errors: &mut Vec
     }
     let bent = [(shape != Shape::D2, Property::Shape, "its shape"), (mips > 1, Property::Mips, "its mip levels")];
     if allocated.is_some() {
-        let outlives = (declared.outlives_frame(), Property::Lifetime, "its lifetime");
-        if let Some((_, at, remark)) = bent.into_iter().chain([outlives]).find(|(hinders, ..)| *hinders) {
-            let what = "changes its size, so it is transient, two-dimensional and has one mip level".to_owned();
+        let kept = (declared.is_kept(), Property::Lifetime, "its lifetime");
+        if let Some((_, at, remark)) = [bent[0], kept].into_iter().find(|(hinders, ..)| *hinders) {
+            let what = "changes its size, so it is two-dimensional, and transient or with history".to_owned();
             errors.push(with(wrong(Code::DYNAMIC_SIZE, Property::Size, what), at, remark));
         }
     }

@@ -49,6 +49,16 @@ pub(crate) fn several_levels(image: &Image, [here, declared]: [Span; 2], what: &
         .help(format!("write `(image: \"{name}\", mip: 0)`"))
 }
 
+/// A copy of what an earlier frame left in an image that changes its size.
+fn another_size(Image { name, .. }: &Image, here: Span) -> Diagnostic {
+    let message =
+        format!("`{name}` may have had another size in that frame, and a copy moves as many texels in each frame");
+    let help = format!(
+        "draw it: `draw: FullScreen(\"copy\")` with `sample: {{\"source\": (image: \"{name}\", previous: 1)}}` is told how large it was"
+    );
+    Diagnostic::new(Code::EARLIER_SIZE, here, message).help(help)
+}
+
 /// A side that is an image.
 struct Side<'c> {
     span: Span,
@@ -105,6 +115,10 @@ impl<'c, C: CheckContext> Check<'c, C> {
     /// A side as an image of one mip level. `None` if it is a buffer, or after a mistake was reported.
     fn one_level(&mut self, at: usize, used: &TransferUse) -> Option<Side<'c>> {
         let side = self.side(used)?;
+        if used.frames_ago > 0 && side.image.allocated.is_some() {
+            self.errors.push(another_size(side.image, side.span));
+            return None;
+        }
         if side.part.mips == 1 {
             return Some(side);
         }

@@ -2,6 +2,7 @@
 
 use super::resources::{Image, Size};
 use crate::base::{Code, Diagnostic, shown_number};
+use crate::frame::least_part;
 
 /// Largest width and height that a file may ask for.
 pub(crate) const LARGEST_SIZE: u32 = 16384;
@@ -15,10 +16,6 @@ pub(crate) struct Area {
     pub(crate) extent: [u32; 2],
     pub(crate) allocated: Option<[u32; 2]>,
 }
-
-/// The least part in use, in texels. A linear filter reads two texels in each direction, one of them possibly with weight 0:
-/// both must be drawn, since 0 times an undrawn value need not be 0.
-const LEAST_PART: u32 = 2;
 
 /// The area of an image in a view of the size `view`; `None`: unknown. `followed` is the area of the image that it follows.
 ///
@@ -40,8 +37,8 @@ pub(crate) fn area(image: &Image, view: [u32; 2], followed: Option<Area>) -> Res
     }
     // An image that follows one of changing size also has room for the greatest size.
     let allocated = scaled(image, base.allocated.unwrap_or(base.extent), up_to.unwrap_or(by))?;
-    let least = [0, 1].map(|side| extent[side].max(allocated[side].min(LEAST_PART)));
-    Ok(Some(Area { extent: least, allocated: Some(allocated) }))
+    let [width, height, _] = least_part([extent[0], extent[1], 1], allocated);
+    Ok(Some(Area { extent: [width, height], allocated: Some(allocated) }))
 }
 
 /// `base` times a factor, rounded down, at least 1.

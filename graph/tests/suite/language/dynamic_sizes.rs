@@ -7,7 +7,8 @@ use framewright_graph::compile::{Compiler, Options, compile};
 use framewright_graph::device::{MemoryEstimate, Profile};
 use framewright_graph::expand::Inputs;
 use framewright_graph::frame::Frame;
-use framewright_graph::plan::{Plan, Work};
+use framewright_graph::plan::{Plan, Role, Work};
+use framewright_graph::vulkan::{Accesses, Layout, Stages, State};
 use std::sync::Arc;
 
 fn device() -> Arc<Profile> {
@@ -135,13 +136,125 @@ fn other_rooms_samples_or_passes_are_more_than_values() {
 }
 
 #[test]
-fn what_changes_its_size_neither_leaves_the_frame_nor_is_stored_into() {
-    let frame = frame("1", "\"toned\",");
+fn what_changes_its_size_leaves_the_frame_but_is_shown_in_no_window_do_10() {
     let device = device();
-    let errors = compile(&frame, &device, &mut MemoryEstimate(&device), &Options::default()).expect_err("it can't be");
-    let said = render(&frame.sources, &errors);
-    assert!(said.contains("`toned` can't leave the frame: its size may change from frame to frame"), "{said}");
-    assert!(said.contains("scale it into an image of a fixed size"), "{said}");
+    let plan = planned(&frame("0.5", "\"toned\","));
+    let toned = plan.images.iter().find(|image| &*image.name == "toned").expect("it is an output");
+    assert_eq!((toned.extent, toned.allocated), ([32, 18, 1], Some([128, 72])));
+    let mut shown = frame("0.5", "\"toned\",");
+    shown.outputs[0].after =
+        Some(State { stages: Stages::empty(), accesses: Accesses::empty(), layout: Layout::PresentSrcKhr });
+    let errors = compile(&shown, &device, &mut MemoryEstimate(&device), &Options::default()).expect_err("it can't be");
+    let said = render(&shown.sources, &errors);
+    assert!(said.contains("`toned` can't be shown in a window: its size may change from frame to frame"), "{said}");
+    assert!(said.contains("E0627"), "{said}");
+}
+
+/// A pyramid with history, and its sizes in a Plan.
+fn pyramid(scale: &str) -> Frame {
+    let text = r#"Pipeline(
+            version: 1,
+            settings: [(name: "scale", value: Number(default: 0.5, min: 0.01, max: 1.0))],
+            images: [
+                (name: "chain", format: R16G16B16A16_SFLOAT, size: Dynamic(by: "scale", up_to: 1.0), mips: Full,
+                    lifetime: History),
+                (name: "screen", format: Output, size: Output),
+            ],
+            passes: [
+                (name: "first", draw: FullScreen("plain"), color: [(image: "chain", mip: 0)]),
+                (name: "level", repeat: ("i", 6), draw: FullScreen("downsample"), color: [(image: "chain", mip: "i + 1")],
+                    sample: {"source": (image: "chain", mip: "i")}),
+                (name: "show", draw: FullScreen("downsample"), sample: {"source": (image: "chain", mip: 0, previous: 1)},
+                    color: ["screen"]),
+            ],
+            outputs: ["screen"],
+        )"#;
+    let chosen = set(&[("scale", scale)]);
+    right(text, &Inputs { set: &chosen, output_extent: [64, 36], ..INPUTS })
+}
+
+#[test]
+fn levels_are_used_half_as_far_each_and_as_far_as_a_filter_needs_do_10() {
+    let extents = |scale: &str| {
+        let plan = planned(&pyramid(scale));
+        assert_eq!(plan.images.iter().filter(|image| image.mips == 7).count(), 2, "this frame's, and the one before");
+        let scopes = plan.steps.iter().filter_map(|step| match &step.work {
+            Work::Render(scope) if plan.image(scope.attachments[0].image).allocated.is_some() => Some(scope.extent),
+            _ => None,
+        });
+        scopes.collect::<Vec<_>>()
+    };
+    assert_eq!(extents("1"), [[64, 36], [32, 18], [16, 9], [8, 4], [4, 2], [2, 1], [1, 1]]);
+    assert_eq!(extents("0.3"), [[19, 10], [9, 5], [4, 2], [2, 2], [2, 2], [2, 1], [1, 1]]);
+    assert_eq!(extents("0.01"), [[2, 2], [2, 2], [2, 2], [2, 2], [2, 2], [2, 1], [1, 1]]);
+    let first = planned(&pyramid("1"));
+    for scale in ["0.3", "0.01", "0.77"] {
+        let other = planned(&pyramid(scale));
+        assert_eq!(first.differs_beyond_values(&other), None, "{scale}");
+        assert_eq!(first.heaps, other.heaps, "{scale}");
+        assert!(framewright_graph::verify::verify(&other).is_empty(), "{scale}");
+    }
+}
+
+#[test]
+fn what_an_earlier_frame_left_at_its_size_is_drawn_and_not_copied_do_10() {
+    let refused = |pass: &str| {
+        let text = format!(
+            r#"Pipeline(
+                version: 1,
+                images: [
+                    (name: "color", format: R8G8B8A8_UNORM, size: Dynamic(by: 0.5, up_to: 1.0), lifetime: History),
+                    (name: "target", format: R8G8B8A8_UNORM, size: Like("color")),
+                ],
+                passes: [
+                    (name: "draw", draw: FullScreen("plain"), color: ["color"]),
+                    (name: "keep", {pass}),
+                ],
+                outputs: ["target"],
+            )"#
+        );
+        crate::testing::pipelines::wrong(&text, &Inputs { output_extent: [64, 36], ..INPUTS })
+    };
+    for pass in [
+        r#"copy: (from: (image: "color", previous: 1), to: "target")"#,
+        r#"blit: (from: (image: "color", previous: 1), to: "target", filter: Nearest)"#,
+    ] {
+        let said = refused(pass);
+        assert!(said.contains("E0626") && said.contains("may have had another size in that frame"), "{said}");
+    }
+    let own = r#"draw: FullScreen("downsample"), color: ["target"],
+        sample: {"source": (image: "color", previous: 1, own_pixel: true)}"#;
+    assert!(refused(own).contains("can't be read at the fragment's own position"));
+}
+
+/// The checker finds out by itself what is wrong with images that are used in part.
+#[test]
+fn verify_finds_parts_that_nobody_is_told_of_do_10() {
+    let broken = |change: &dyn Fn(&mut Plan)| {
+        let mut plan = planned(&pyramid("0.3"));
+        change(&mut plan);
+        framewright_graph::verify::verify(&plan).iter().map(ToString::to_string).collect::<String>()
+    };
+    assert_eq!(broken(&|_| ()), "");
+    let scope = |plan: &mut Plan, extent: [u32; 2]| {
+        let mut scopes = plan.steps.iter_mut().filter_map(|step| match &mut step.work {
+            Work::Render(scope) if scope.extent == [2, 2] => Some(scope),
+            _ => None,
+        });
+        scopes.next().expect("a small level").extent = extent;
+    };
+    assert!(broken(&|plan| scope(plan, [2, 1])).contains("has another size than its scope"));
+    let alone = broken(&|plan| {
+        for image in &mut plan.images {
+            if let (Role::Persistent { becomes, .. }, Some(_)) = (&mut image.role, image.allocated) {
+                *becomes = image.id.0;
+            }
+        }
+    });
+    assert!(alone.contains("changes its size and is the same image in each frame"), "{alone}");
+    let levels =
+        broken(&|plan| plan.images.iter_mut().filter(|image| image.mips == 7).for_each(|image| image.mips = 8));
+    assert!(levels.contains("has more mip levels than its size allows"), "{levels}");
 }
 
 /// A blit clamps at the edge of the image, not of the part in use: a linear one that enlarges would mix in what nobody wrote.

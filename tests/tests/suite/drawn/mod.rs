@@ -18,6 +18,7 @@ mod depth_of_field;
 mod depth_only;
 mod depth_resolves;
 mod depth_stripes;
+mod dynamic_parts;
 mod dynamic_resolution;
 mod effects;
 mod extremes;
