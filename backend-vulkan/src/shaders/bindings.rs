@@ -100,7 +100,7 @@ pub(super) fn pushed(module: &IndexedModule<'_>, stage: ShaderStage, used: &Hash
     };
     let read_block = |(variable, it): (u32, &Instruction)| {
         let ty = module.pointee(it)?;
-        let id = ty.result_id.filter(|ty| module.name(*ty) != PARTS)?;
+        let id = ty.result_id.filter(|ty| ![*ty, variable].into_iter().any(|id| tells_parts(module.name(id))))?;
         let members = block(module, ty).members;
         let offset = members.iter().map(|member| member.offset).min()?;
         let name = name_of(module, variable, it).to_owned();
