@@ -139,7 +139,8 @@ impl Walk<'_> {
     fn mistakes(&self) -> Vec<Diagnostic> {
         let Walk { frame, adapted, cadences, kept, .. } = self;
         let mut errors: Vec<Diagnostic> = Vec::new();
-        let span = |op: u32| adapted.ops[op as usize].kind.pass().map_or(Span::NONE, |it| frame.passes[it as usize].span);
+        let span =
+            |op: u32| adapted.ops[op as usize].kind.pass().map_or(Span::NONE, |it| frame.passes[it as usize].span);
         let mut say = |code: Code, at: u32, resource: PhysicalIndex, what: &str| {
             let (name, image) = (self.name(at), resource_name(frame, adapted, resource));
             let message = format!("`{name}` runs {}, and writes `{image}`, {what}", cadences[at as usize]);
@@ -155,12 +156,18 @@ impl Walk<'_> {
                 adapted.for_each_subresource(used, |subresource| match (memory, kept[subresource as usize]) {
                     (MemorySource::Persistent { .. }, _) | (_, None) => {}
                     (MemorySource::Output | MemorySource::Imported { .. }, Some(Kept { writer, .. })) => {
-                        say(Code::KEPT_UNFIT, writer, used.resource, "which leaves the frame, and each frame writes anew");
+                        say(
+                            Code::KEPT_UNFIT,
+                            writer,
+                            used.resource,
+                            "which leaves the frame, and each frame writes anew",
+                        );
                     }
                     (MemorySource::Transient, Some(Kept { writer, reader })) => {
                         if op > reader || cadences[op as usize] != cadences[writer as usize] {
                             let other = self.name(op);
-                            let what = format!("which `{other}` writes in other frames, or after it was read in others");
+                            let what =
+                                format!("which `{other}` writes in other frames, or after it was read in others");
                             say(Code::KEPT_WRITTEN, writer, used.resource, &what);
                         }
                     }
