@@ -77,7 +77,7 @@ impl<'p> Check<'_, 'p> {
     fn cadence(&mut self, step: &Step) {
         match &step.run {
             Cadence::Always => {}
-            _ if matches!(step.work, Work::Export) => self.wrong_step("has no work, and doesn't run in each frame"),
+            _ if step.work.is_export() => self.wrong_step("has no work, and doesn't run in each frame"),
             Cadence::Every { count: 0 | 1, .. } => self.wrong_step("runs in a round of fewer than two frames"),
             Cadence::Every { count, at } if at >= count => {
                 self.wrong_step("runs in a frame behind the last of its round")
