@@ -1,8 +1,8 @@
 //! Passes of a frame, and their work.
 
 use super::{
-    BufferUse, Cadence, ColorTarget, DeclaredUse, DepthTarget, ParamValue, RasterState, SampledImage, Storage, TransferUse,
-    ViewIndex, Work,
+    BufferUse, Cadence, ColorTarget, DeclaredUse, DepthTarget, ParamValue, RasterState, SampledImage, Storage,
+    TransferUse, ViewIndex, Work,
 };
 use crate::base::Span;
 use crate::device::Need;

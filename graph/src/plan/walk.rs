@@ -60,6 +60,12 @@ impl Work {
         matches!(self, Work::Dispatch(_))
     }
 
+    /// Whether it is barriers alone.
+    #[must_use]
+    pub fn is_export(&self) -> bool {
+        matches!(self, Work::Export)
+    }
+
     /// Whether the embedding program records it.
     #[must_use]
     pub fn is_custom(&self) -> bool {

@@ -78,10 +78,14 @@ impl<'p> Check<'_, 'p> {
     fn cadence(&mut self, step: &Step) {
         match &step.run {
             Cadence::Always => {}
-            _ if matches!(step.work, Work::Export) => self.wrong_step("has no work, and doesn't run in each frame"),
+            _ if step.work.is_export() => self.wrong_step("has no work, and doesn't run in each frame"),
             Cadence::Every { count: 0 | 1, .. } => self.wrong_step("runs in a round of fewer than two frames"),
-            Cadence::Every { count, at } if at >= count => self.wrong_step("runs in a frame behind the last of its round"),
-            Cadence::WhenDirty(name) if name.is_empty() => self.wrong_step("runs when something without a name is dirty"),
+            Cadence::Every { count, at } if at >= count => {
+                self.wrong_step("runs in a frame behind the last of its round")
+            }
+            Cadence::WhenDirty(name) if name.is_empty() => {
+                self.wrong_step("runs when something without a name is dirty")
+            }
             Cadence::Once | Cadence::Every { .. } | Cadence::WhenDirty(_) => {}
         }
     }

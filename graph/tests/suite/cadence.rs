@@ -71,8 +71,10 @@ fn do_9_what_a_pass_leaves_for_other_frames_has_memory_of_its_own() {
 #[test]
 fn do_9_what_runs_together_leaves_nothing_and_shares_memory() {
     let all = map(1, "run: Once,", "").replace(r#"(name: "show","#, r#"(name: "show", run: Once,"#);
-    let text = all
-        .replace(r#"(name: "screen", format: R8G8B8A8_UNORM, size: Output)"#, r#"(name: "screen", format: R8G8B8A8_UNORM, size: Output, lifetime: Persistent)"#);
+    let text = all.replace(
+        r#"(name: "screen", format: R8G8B8A8_UNORM, size: Output)"#,
+        r#"(name: "screen", format: R8G8B8A8_UNORM, size: Output, lifetime: Persistent)"#,
+    );
     let plan = planned(&text);
     assert!(matches!(image(&plan, "map").role, Role::Transient(_)), "{}", plan.tree());
     assert!(step(&plan, "draw").run == Cadence::Once && step(&plan, "show").run == Cadence::Once);
@@ -108,14 +110,24 @@ fn do_9_resolves_follow_what_they_resolve() {
 
 #[test]
 fn do_9_scopes_are_shared_by_passes_that_run_together() {
-    let blend = |run: &str| format!(r#"(name: "more", {run} draw: Objects(Transparent), shader: "lit", color: [(image: "map", blend: Alpha)]),"#);
+    let blend = |run: &str| {
+        format!(
+            r#"(name: "more", {run} draw: Objects(Transparent), shader: "lit", color: [(image: "map", blend: Alpha)]),"#
+        )
+    };
     let together = planned(&map(1, "run: Once,", &blend("run: Once,")));
     assert_eq!(step(&together, "draw").work.passes().len(), 2);
     // `more` adds to what is there, and the pass that reads it runs in other frames: that can't be told apart.
     let apart = refused_text(&map(1, "", &blend("run: Once,")));
-    assert!(apart.contains("`draw` runs always and writes `map`, which `more` writes too, once; `show` reads it in other frames"), "{apart}");
+    assert!(
+        apart.contains(
+            "`draw` runs always and writes `map`, which `more` writes too, once; `show` reads it in other frames"
+        ),
+        "{apart}"
+    );
     // Of an image that is declared to persist, what was written last stands.
-    let persistent = map(1, "", &blend("run: Once,")).replace("size: Fixed(64, 64),", "size: Fixed(64, 64), lifetime: Persistent,");
+    let persistent =
+        map(1, "", &blend("run: Once,")).replace("size: Fixed(64, 64),", "size: Fixed(64, 64), lifetime: Persistent,");
     let plan = planned(&persistent);
     assert!(step(&plan, "draw").work.passes().len() == 1 && step(&plan, "more").run == Cadence::Once);
     let note = plan.notes.iter().find(|note| note.kind == NoteKind::OwnScope && &*note.subject == "more");
@@ -249,7 +261,10 @@ fn do_9_the_checker_walks_without_what_is_left_out() {
 fn do_9_mistakes() {
     // E0722
     let numbers = wrong(&map(1, "run: Every(count: 4, at: 4),", ""), &INPUTS);
-    assert!(numbers.contains("E0722") && numbers.contains("in frame 4 of 4, which are numbered from 0 to 3"), "{numbers}");
+    assert!(
+        numbers.contains("E0722") && numbers.contains("in frame 4 of 4, which are numbered from 0 to 3"),
+        "{numbers}"
+    );
     let zero = wrong(&map(1, "run: Every(0),", ""), &INPUTS);
     assert!(zero.contains("0 is no number of frames: 1 to 1000000"), "{zero}");
     let huge = wrong(&map(1, "run: Every(1000001),", ""), &INPUTS);
@@ -257,7 +272,10 @@ fn do_9_mistakes() {
     let word = wrong(&map(1, "run: Sometimes,", ""), &INPUTS);
     assert!(word.contains("`Always`, `Once`, `Every(4)`"), "{word}");
     assert!(wrong(&map(1, "run: WhenDirty,", ""), &INPUTS).contains("WhenDirty(\"name\")"));
-    assert!(wrong(&map(1, r#"run: WhenDirty("a b"),"#, ""), &INPUTS).contains("can't be the name of what the program calls dirty"));
+    assert!(
+        wrong(&map(1, r#"run: WhenDirty("a b"),"#, ""), &INPUTS)
+            .contains("can't be the name of what the program calls dirty")
+    );
     let mut frame = right(&map(1, "", ""), &INPUTS);
     for (run, what) in [
         (Cadence::Every { count: 0, at: 0 }, "every 0 frames; 2 to 1000000 are possible"),
@@ -268,7 +286,8 @@ fn do_9_mistakes() {
         assert!(refused(&frame).join("\n").contains(what), "{:?}", refused(&frame));
     }
     // E0723: others write what stays, before or after it is read.
-    let again = r#"(name: "again", draw: Objects(Opaque), shader: "lit", color: [(image: "map", clear: (0, 0, 0, 1))]),"#;
+    let again =
+        r#"(name: "again", draw: Objects(Opaque), shader: "lit", color: [(image: "map", clear: (0, 0, 0, 1))]),"#;
     let others = map(1, "", again).replace(r#"(name: "again","#, r#"(name: "again", run: Once,"#);
     assert!(refused_text(&others).contains("`draw` runs always and writes `map`, which `again` writes too, once"));
     let between = r#"(name: "early", custom: "look", reads: ["map"], side_effect: true),
@@ -284,7 +303,8 @@ fn do_9_mistakes() {
         ("History", past, "has a history, which each frame writes anew"),
         ("Imported(before: Undefined)", "", "is handed in"),
     ] {
-        let text = map(1, "run: Once,", more).replace("size: Fixed(64, 64),", &format!("size: Fixed(64, 64), lifetime: {lifetime},"));
+        let text = map(1, "run: Once,", more)
+            .replace("size: Fixed(64, 64),", &format!("size: Fixed(64, 64), lifetime: {lifetime},"));
         let refused = refused_text(&text);
         assert!(refused.contains(what), "{refused}");
     }
@@ -318,7 +338,9 @@ fn do_9_a_forwarded_image_is_no_way_around_the_rules() {
 
 /// A full-screen pass whose parameter `exposure` is this, and what else the pipeline declares.
 fn exposed(exposure: &str, settings: &str) -> String {
-    map(1, "", "").replace(r#""exposure": 1.0"#, &format!(r#""exposure": {exposure}"#)).replace("settings: [", &format!("settings: [{settings}"))
+    map(1, "", "")
+        .replace(r#""exposure": 1.0"#, &format!(r#""exposure": {exposure}"#))
+        .replace("settings: [", &format!("settings: [{settings}"))
 }
 
 #[test]
@@ -346,6 +368,6 @@ fn do_9_the_frame_s_number_and_time_stand_alone_and_in_parameters_alone() {
     let sum = wrong(&exposed(r#""time + 1.0""#, ""), &INPUTS);
     assert!(sum.contains("E0311") && sum.contains("`time` is another value in each frame"), "{sum}");
     assert!(sum.contains("it stands alone in `params`"), "{sum}");
-    let size = wrong(&map(1, "", "").replace("Fixed(64, 64)", r#"Fixed("frame", 64)"#), &INPUTS);
+    let size = wrong(&map(1, "", "").replace("Fixed(64, 64)", r#"Fixed("frame + 1", 64)"#), &INPUTS);
     assert!(size.contains("E0311") && size.contains("`frame` is another value in each frame"), "{size}");
 }

@@ -12,7 +12,7 @@ const NONE: u32 = u32::MAX;
 
 /// Contents that must stay: who writes them, and who reads them in other frames.
 #[derive(Debug, Clone, Copy)]
-struct Kept {
+struct KeptContents {
     writer: u32,
     reader: u32,
 }
@@ -70,7 +70,7 @@ struct Walk<'w> {
     /// For each subresource the operation that wrote it last.
     last: Vec<u32>,
     /// For each subresource the contents that must stay.
-    kept: Vec<Option<Kept>>,
+    kept: Vec<Option<KeptContents>>,
 }
 
 impl Walk<'_> {
@@ -84,7 +84,7 @@ impl Walk<'_> {
                     && !of_writer.is_always()
                     && *of_writer != cadence
                 {
-                    self.kept[subresource as usize].get_or_insert(Kept { writer, reader: op });
+                    self.kept[subresource as usize].get_or_insert(KeptContents { writer, reader: op });
                 }
             });
         }
@@ -129,7 +129,7 @@ impl Walk<'_> {
             for subresource in self.adapted.resources[*output as usize].subresources() {
                 let writer = self.last[subresource as usize];
                 if self.cadences.get(writer as usize).is_some_and(|cadence| !cadence.is_always()) {
-                    self.kept[subresource as usize].get_or_insert(Kept { writer, reader: NONE });
+                    self.kept[subresource as usize].get_or_insert(KeptContents { writer, reader: NONE });
                 }
             }
         }
@@ -139,7 +139,8 @@ impl Walk<'_> {
     fn mistakes(&self) -> Vec<Diagnostic> {
         let Walk { frame, adapted, cadences, kept, .. } = self;
         let mut errors: Vec<Diagnostic> = Vec::new();
-        let span = |op: u32| adapted.ops[op as usize].kind.pass().map_or(Span::NONE, |it| frame.passes[it as usize].span);
+        let span =
+            |op: u32| adapted.ops[op as usize].kind.pass().map_or(Span::NONE, |it| frame.passes[it as usize].span);
         let mut say = |code: Code, at: u32, resource: PhysicalIndex, what: &str| {
             let (name, image) = (self.name(at), resource_name(frame, adapted, resource));
             let message = format!("`{name}` runs {}, and writes `{image}`, {what}", cadences[at as usize]);
@@ -154,13 +155,19 @@ impl Walk<'_> {
                 let memory = &adapted.resources[used.resource as usize].memory;
                 adapted.for_each_subresource(used, |subresource| match (memory, kept[subresource as usize]) {
                     (MemorySource::Persistent { .. }, _) | (_, None) => {}
-                    (MemorySource::Output | MemorySource::Imported { .. }, Some(Kept { writer, .. })) => {
-                        say(Code::KEPT_UNFIT, writer, used.resource, "which leaves the frame, and each frame writes anew");
+                    (MemorySource::Output | MemorySource::Imported { .. }, Some(KeptContents { writer, .. })) => {
+                        say(
+                            Code::KEPT_UNFIT,
+                            writer,
+                            used.resource,
+                            "which leaves the frame, and each frame writes anew",
+                        );
                     }
-                    (MemorySource::Transient, Some(Kept { writer, reader })) => {
+                    (MemorySource::Transient, Some(KeptContents { writer, reader })) => {
                         if op > reader || cadences[op as usize] != cadences[writer as usize] {
                             let other = self.name(op);
-                            let what = format!("which `{other}` writes in other frames, or after it was read in others");
+                            let what =
+                                format!("which `{other}` writes in other frames, or after it was read in others");
                             say(Code::KEPT_WRITTEN, writer, used.resource, &what);
                         }
                     }

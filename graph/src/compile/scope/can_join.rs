@@ -52,7 +52,9 @@ impl Scope {
         if !shares {
             return Err(None);
         }
-        if let Some(cadence) = self.ops.first().map(|first| adapted.cadence(*first)).filter(|it| *it != adapted.cadence(op)) {
+        if let Some(cadence) =
+            self.ops.first().map(|first| adapted.cadence(*first)).filter(|it| *it != adapted.cadence(op))
+        {
             return refuse(Refusal::Runs(cadence.clone()));
         }
         let same = |ours: Option<Target>, role| match (ours, plane_of(adapted, uses, role)) {

@@ -36,7 +36,9 @@ pub(in crate::expand) fn check(pass: &language::Pass, interface: &ShaderInterfac
         if given.value.value.is_of_frame() {
             let message = format!("constant `{name}` of shader `{shader}` is another value in each frame");
             let wrong = Diagnostic::new(Code::FRAME_VALUE, given.value.span, message);
-            errors.push(wrong.help("constants are the pipeline's: give it by `params`, as a member of the shader's block"));
+            errors.push(
+                wrong.help("constants are the pipeline's: give it by `params`, as a member of the shader's block"),
+            );
             continue;
         }
         let fits = |ty: &str| ParamType::of(ty).is_some_and(|ty| ty.take(&given.value.value).is_ok());

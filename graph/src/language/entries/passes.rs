@@ -92,15 +92,11 @@ impl Context<'_> {
             ReadableValue(alpha_to_coverage),
             ReadableValue(covers),
         );
-        let parts = (
-            ReadableValue(work),
-            bindings,
-            (ReadableValue(vertex), ReadableValue(index)),
-            targets,
-            (ReadableValue(side_effect), ReadableValue(uses), ReadableValue(run)),
-        );
-        reported(self.reader, parts, move |reader, (work, bindings, (vertex, index), targets, (side_effect, uses, run))| {
+        let others = (ReadableValue(side_effect), ReadableValue(uses), ReadableValue(run));
+        let parts = (ReadableValue(work), bindings, (ReadableValue(vertex), ReadableValue(index)), targets, others);
+        reported(self.reader, parts, move |reader, (work, bindings, (vertex, index), targets, others)| {
             let (sample, storage, uniform, (params, constants)) = bindings;
+            let (side_effect, uses, run) = others;
             let (color, depth, raster, alpha_to_coverage, covers) = targets;
             if let (Some(color), Some(depth)) = (&color, &depth) {
                 let (draws, color) = (draws.then_some(span), color.as_deref().unwrap_or(&[]));

@@ -67,7 +67,8 @@ impl<'a> Evaluation<'a> {
         let start = self.flat.lengths();
         let instance = u32::try_from(self.flat.instances.len()).ok();
         let decided = PassDecisions { runs: by, images, repeat: repeated.repeat.clone() };
-        let mut inner = Level::within(level, (found, values), (&whole, view, instance), is_off, &decided, run.flatten());
+        let mut inner =
+            Level::within(level, (found, values), (&whole, view, instance), is_off, &decided, run.flatten());
         self.flat.instances.push(Instance { name: whole.text.clone(), span: name.span, within: level.instance });
         self.used.insert(at);
         self.path.push((at, name.clone()));

@@ -155,7 +155,8 @@ impl<'p> Text<'p> {
             Queue::Compute => " on the compute queue",
             Queue::Transfer => " on the transfer queue",
         };
-        let runs = if step.run.is_always() { String::new() } else { format!(", runs {}", ShownText(&step.run.to_string())) };
+        let runs =
+            if step.run.is_always() { String::new() } else { format!(", runs {}", ShownText(&step.run.to_string())) };
         let number = entry.step.map_or_else(String::new, |StepId(id)| format!(" {id}"));
         (format!("step{number}{queue}{runs}: {title}"), parts)
     }

@@ -127,7 +127,10 @@ pub(crate) fn whole_word(words: &str, word: &str) -> String {
         }
         "Run" => with(
             "passes",
-            &format!("(name: \"it\", run: {}, draw: FullScreen(\"plain\"), color: [\"target\"])", word.replace("\"face\"", "5")),
+            &format!(
+                "(name: \"it\", run: {}, draw: FullScreen(\"plain\"), color: [\"target\"])",
+                word.replace("\"face\"", "5")
+            ),
         ),
         "Groups" => {
             let pass = format!("(name: \"it\", dispatch: \"it\", groups: {word}, storage: {{\"it\": \"buffer\"}})");

@@ -57,7 +57,8 @@ fn picture(executor: &mut Executor, draws: &mut SceneDrawSource) -> Result<Vec<V
 }
 
 #[test]
-fn do_9_far_cascades_that_are_drawn_now_and_then_show_the_same_and_a_change_in_their_turn() -> Result<(), Box<dyn Error>> {
+fn do_9_far_cascades_that_are_drawn_now_and_then_show_the_same_and_a_change_in_their_turn() -> Result<(), Box<dyn Error>>
+{
     let Some(device) = device() else { return Ok(()) };
     for (stereo, poison) in [(Stereo::Off, false), (Stereo::Off, true), (Stereo::MultiPass, false)] {
         let (plan, mut always) = ready(device, "1", stereo, poison)?;
