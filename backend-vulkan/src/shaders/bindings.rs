@@ -157,19 +157,16 @@ fn join_pairs(bindings: &mut Vec<Binding>) {
 /// Makes one storage block of several of one name at one place: Slang has one for each type that it reads a `ByteAddressBuffer` by.
 fn join_views(bindings: &mut Vec<Binding>) {
     bindings.dedup_by(|next, first| {
+        let [one, other] = [&*first, &*next].map(|it| it.kind.storage().zip(it.kind.storage_block()));
         let same = (next.set, next.binding, &next.name) == (first.set, first.binding, &first.name);
-        let (BindingKind::StorageBlock { readable, writable, bytes }, BindingKind::StorageBlock { .. }) =
-            (&mut first.kind, &next.kind)
+        let Some((((reads, writes), (_, bytes)), ((also_reads, also_writes), (_, least)))) =
+            one.zip(other).filter(|_| same)
         else {
             return false;
         };
-        if let (true, Some((reads, writes)), Some((_, least))) = (same, next.kind.storage(), next.kind.storage_block())
-        {
-            *readable |= reads;
-            *writable |= writes;
-            *bytes = least.max(*bytes);
-        }
-        same
+        let (readable, writable) = (reads || also_reads, writes || also_writes);
+        first.kind = BindingKind::StorageBlock { readable, writable, bytes: bytes.max(least) };
+        true
     });
 }
 
