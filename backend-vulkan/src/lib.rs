@@ -57,14 +57,14 @@ pub use execute::{Executor, ExecutorOptions, ExternalStates, OutsideOwner, Resou
 /// The faces that draws leave out, and which side is the front.
 pub use framewright_graph::vulkan::{CullMode, FrontFace};
 pub use gpu::{
-    AdoptedDevice, Device, DeviceChoice, DeviceFeatures, DeviceOptions, DeviceSummary, LocalReads, MINIMUM_VERSION,
+    AdoptedDevice, DeadImages, Device, DeviceChoice, DeviceFeatures, DeviceOptions, DeviceSummary, LocalReads, MINIMUM_VERSION,
     Message, MessageKind, Messages, PipelineCounts, SamplerDescriptor, ScopeFormats, Severity, layer, minimum_features,
     optional_features, rotation_of_surface,
 };
 /// The allocator of device memory, for programs whose own one serves an [adopted](AdoptedDevice) device.
 pub use gpu_allocator;
 pub use helper::Helper;
-pub use memory::{DeadImages, LiveMemory, MemoryInUse};
+pub use memory::{LiveMemory, MemoryInUse};
 pub use present::{Overlay, PresentMode, Presentation, Surface, Swapchain, SwapchainOptions};
 pub use probe::Canary;
 /// The handles of windows and displays, for programs that show pictures.

@@ -1,6 +1,7 @@
 //! External images and buffers: the states in which frames find and leave them, and the choice among those that were imported.
 
 use super::executor::Executor;
+use super::outside_owner::OutsideOwner;
 use super::submission::{ExternalStates, ResourceState};
 use crate::base::Error;
 use crate::memory::create_info;
@@ -27,6 +28,36 @@ impl Executor {
             }
             Resource::Buffer(_) => None,
         }
+    }
+
+    /// Says who has the external image or buffer `name` between frames; `None`: the queues of this device, as at first. Each frame then
+    /// takes it over before its first use, from the state `before` of [`Executor::external_states`], and gives it back in the state
+    /// `after`. What was to be left as it was, and is in the layout `UNDEFINED` before the frame, isn't taken over: its contents are lost.
+    /// The other owner gives and takes it by barriers of its own, in the same layouts. Frames in flight are waited for.
+    ///
+    /// # Errors
+    /// [`Error::BadResource`] if there is no such external image or buffer, or the device can't take anything from that owner.
+    pub fn set_owner(&mut self, name: &str, owner: Option<OutsideOwner>) -> Result<(), Error> {
+        if owner == Some(OutsideOwner::Foreign) && !self.gpu.takes_foreign {
+            let what = format!(
+                "`{name}` can't have a foreign owner: {} was created without VK_EXT_queue_family_foreign",
+                self.gpu.summary.name
+            );
+            return Err(Error::BadResource { what });
+        }
+        let resource = self.external(name);
+        let unknown = || Error::BadResource { what: format!("the Plan has no external image or buffer `{name}`") };
+        let resource = resource.ok_or_else(unknown)?;
+        self.frames.wait_for_all()?;
+        let import = self.imports.iter_mut().find(|import| import.resource == resource);
+        import.ok_or_else(unknown)?.owner = owner;
+        Ok(())
+    }
+
+    /// Whether somebody outside of the device has it between frames.
+    pub(super) fn is_outside(&self, resource: Resource) -> bool {
+        let physical = &self.prepared.physical;
+        self.imports.iter().any(|it| it.resource == resource && it.owner.is_some() && !it.is_own(physical))
     }
 
     /// Chooses among the program's buffers and images for the next frame.

@@ -1,5 +1,6 @@
 //! Choosing, opening and sharing a device.
 
+use super::dead_images::DeadImages;
 use super::handle::Gpu;
 use super::instance::Instance;
 use super::pipeline_cache::PipelineCounts;
@@ -107,6 +108,12 @@ impl Device {
     #[must_use]
     pub fn graphics_queue_family(&self) -> u32 {
         self.gpu.queues.families.graphics.index
+    }
+
+    /// Tells from now on which of its images died. Images that the program imported die by its own hand, and aren't told.
+    #[must_use]
+    pub fn follow_images(&self) -> DeadImages {
+        self.gpu.followers.add()
     }
 
     /// Has every wait for this device end with [`Error::Cancelled`] soon after `asked` becomes true.

@@ -1,6 +1,7 @@
 //! The device handle: everything that is made from a device holds on to it.
 
 use super::cached_objects::Caches;
+use super::dead_images::Followers;
 use super::features::Features;
 use super::instance::Instance;
 use super::labels::are_shown;
@@ -9,7 +10,6 @@ use super::queues::{QueueFamilies, Queues};
 use super::summary::DeviceSummary;
 use super::{minimum, portability};
 use crate::base::{Cache, Cancel, Error, convert};
-use crate::memory::Followers;
 use ash::{ext, khr, vk};
 use framewright_graph::vulkan::Format;
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};

@@ -2,6 +2,7 @@
 
 mod adopted_device;
 mod cached_objects;
+mod dead_images;
 mod device;
 mod device_features;
 pub(crate) mod features;
@@ -24,6 +25,7 @@ mod words;
 
 pub use adopted_device::AdoptedDevice;
 pub use cached_objects::{LocalReads, SamplerDescriptor, ScopeFormats};
+pub use dead_images::DeadImages;
 pub use device::{Device, DeviceOptions};
 pub use device_features::DeviceFeatures;
 pub use features::{minimum_features, optional_features};

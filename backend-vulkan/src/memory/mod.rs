@@ -2,16 +2,13 @@
 
 mod block;
 mod buffer;
-mod dead_images;
 mod image;
 mod needs;
 mod view;
 
-pub use dead_images::DeadImages;
 pub use needs::{LiveMemory, MemoryInUse};
 
 pub(crate) use block::{MemoryBlock, MemoryUse};
 pub(crate) use buffer::RawBuffer;
-pub(crate) use dead_images::Followers;
 pub(crate) use image::{Image, create_info};
 pub(crate) use view::ViewShape;

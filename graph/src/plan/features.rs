@@ -29,9 +29,9 @@ impl UsedFeature {
 
 /// The features found so far: each by its name, with the first that uses it.
 #[derive(Default)]
-struct Found(BTreeMap<&'static str, String>);
+struct UsedFeatures(BTreeMap<&'static str, String>);
 
-impl Found {
+impl UsedFeatures {
     fn add(&mut self, name: &'static str, by: impl FnOnce() -> String) {
         self.0.entry(name).or_insert_with(by);
     }
@@ -49,7 +49,7 @@ impl Plan {
     /// # Errors
     /// A shader that can't be used, with its name.
     pub fn features(&self, shaders: &mut dyn ShaderInterfaces) -> Result<Vec<UsedFeature>, (Arc<str>, ShaderProblem)> {
-        let mut found = self.found();
+        let mut found = self.used();
         let sets = shaders.program_sets();
         for (pass, variant) in self.variants() {
             let interface = match pass.draw {
@@ -74,11 +74,11 @@ impl Plan {
     /// Those of them that the Plan shows by itself, without its shaders.
     #[must_use]
     pub fn own_features(&self) -> Vec<UsedFeature> {
-        self.found().list()
+        self.used().list()
     }
 
-    fn found(&self) -> Found {
-        let mut found = Found::default();
+    fn used(&self) -> UsedFeatures {
+        let mut found = UsedFeatures::default();
         EVERY_PLAN_USES.into_iter().for_each(|name| found.add(name, || "every Plan".to_owned()));
         for image in &self.images {
             let states = image.role.states().into_iter().flatten();
@@ -117,7 +117,7 @@ impl Plan {
     }
 
     /// What a rendering scope takes.
-    fn scope(&self, found: &mut Found, scope: &RenderScope, number: usize) {
+    fn scope(&self, found: &mut UsedFeatures, scope: &RenderScope, number: usize) {
         let eyes = match (self.stereo, self.eyes(scope)) {
             (Stereo::Multiview, Some(_)) => Some("multiview"),
             (Stereo::Instanced, Some(EyeForm::Layers)) => Some("shaderOutputLayer"),
@@ -141,7 +141,7 @@ impl Plan {
                     let (range, of) = (&access.range, &attachment.range);
                     access.image == attachment.image
                         && access.binding.is_none()
-                        && access.accesses.contains(Accesses::COLOR_ATTACHMENT_WRITE)
+                        && !access.accesses.writes().is_empty()
                         && (range.base_mip, range.base_layer) == (of.base_mip, of.base_layer)
                 });
                 is_drawn.then(|| (pass.blend.get(number).and_then(|blend| blend.equation()), pass.write_mask(number)))
@@ -155,7 +155,7 @@ impl Plan {
     }
 
     /// What a pass takes, but for its shader.
-    fn pass(&self, found: &mut Found, pass: &Pass) {
+    fn pass(&self, found: &mut UsedFeatures, pass: &Pass) {
         let of_blends = pass.blend.iter().filter_map(|blend| blend.feature());
         for (name, what) in pass.raster.features().chain(of_blends) {
             found.add(name, || format!("pass `{}`: {what}", pass.name));
@@ -180,7 +180,7 @@ impl Plan {
 }
 
 /// What a state takes that an image or buffer is in.
-fn state(found: &mut Found, state: State, by: impl Fn() -> String) {
+fn state(found: &mut UsedFeatures, state: State, by: impl Fn() -> String) {
     state.features().for_each(|name| found.add(name, &by));
     match state.layout {
         Layout::RenderingLocalReadKhr => found.add(LOCAL_READ, by),
@@ -195,7 +195,7 @@ fn state_of((stages, accesses, layout): (Stages, Accesses, Layout)) -> State {
 }
 
 /// Whether planes of an image have layouts of their own.
-fn planes(found: &mut Found, image: &Image, planes: Aspects, layouts: [Layout; 2]) {
+fn planes(found: &mut UsedFeatures, image: &Image, planes: Aspects, layouts: [Layout; 2]) {
     let both = Aspects::DEPTH | Aspects::STENCIL;
     let apart = image.format.aspects().contains(both) && !planes.contains(both);
     let alone = layouts.into_iter().find(|layout| {

@@ -1,6 +1,5 @@
 //! News of images that died, for programs that keep views of them.
 
-use crate::gpu::Device;
 use ash::vk;
 use std::sync::{Arc, Mutex, PoisonError, Weak};
 
@@ -27,7 +26,7 @@ impl DeadImages {
 }
 
 impl Followers {
-    fn add(&self) -> DeadImages {
+    pub(super) fn add(&self) -> DeadImages {
         let dead = Arc::<Dead>::default();
         let mut followers = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         followers.retain(|follower| follower.strong_count() > 0);
@@ -41,13 +40,5 @@ impl Followers {
         for dead in followers.iter().filter_map(Weak::upgrade) {
             dead.lock().unwrap_or_else(PoisonError::into_inner).push(image);
         }
-    }
-}
-
-impl Device {
-    /// Tells from now on which of its images died. Images that the program imported die by its own hand, and aren't told.
-    #[must_use]
-    pub fn follow_images(&self) -> DeadImages {
-        self.gpu.followers.add()
     }
 }
