@@ -83,7 +83,10 @@ impl<'p> Check<'_, 'p> {
         }
         let topology = pass.raster.topology;
         if topology != PrimitiveTopology::TriangleList && pass.draw.is_some_and(Draw::is_full_screen) {
-            self.wrong_pass(pass, "has another topology than triangles, and draws the triangle that covers the picture");
+            self.wrong_pass(
+                pass,
+                "has another topology than triangles, and draws the triangle that covers the picture",
+            );
         }
         let lists = [PrimitiveTopology::PointList, PrimitiveTopology::LineList, PrimitiveTopology::TriangleList];
         if pass.raster.primitive_restart && lists.contains(&topology) {

@@ -202,9 +202,9 @@ impl Sampler {
             () if self.border.is_some_and(|border| !border.fits(format)) => Some(
                 "its border is of another kind than its texels: integers need an integer border, others a float border",
             ),
-            () if (self.address == AddressMode::ClampToBorder) != self.border.is_some() => Some(
-                "it has a border colour without the address mode `Border`, or that mode without a border colour",
-            ),
+            () if (self.address == AddressMode::ClampToBorder) != self.border.is_some() => {
+                Some("it has a border colour without the address mode `Border`, or that mode without a border colour")
+            }
             () if self.reduces() && self.compare.is_some() => {
                 Some("it compares and reduces: only one of both is possible")
             }
