@@ -11,6 +11,8 @@
 //
 // Each level is looked up by itself: a sampler that mixes levels takes one place for both, and of one of them it may lie beyond the part.
 // What has no layers ignores their number. Nothing is guarded (radiance.glsl).
+//
+// Lavapipe takes the level of one fragment for the four of a quad: where levels differ among them, it looks the others up in a wrong one.
 #ifndef FRAMEWRIGHT_LEVELS
 #define FRAMEWRIGHT_LEVELS
 

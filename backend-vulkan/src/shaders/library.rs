@@ -406,12 +406,10 @@ impl ShaderLibrary {
             unset.place = text::place(files, found, |word| word == unset.name);
         }
         for binding in reflected.interface.bindings.iter_mut().filter(|binding| binding.set == PASS_SET) {
-            let sampled = binding.kind.is_sampled();
             // An array is declared as it is, and isn't told of parts.
             let alone = binding.length.is_none();
-            binding.adapts = sampled && alone && mentioned.adapting.contains(&binding.name);
-            let stored = matches!(binding.kind, framewright_graph::shader::BindingKind::StorageImage { .. });
-            if (sampled || stored) && alone && mentioned.parts.contains(&binding.name) {
+            binding.adapts = alone && binding.kind.is_sampled() && mentioned.adapting.contains(&binding.name);
+            if alone && mentioned.parts.contains(&binding.name) {
                 reflected.interface.asks_part.push(binding.name.clone());
             }
         }

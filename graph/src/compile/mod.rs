@@ -31,6 +31,7 @@ mod rotate;
 mod schedule;
 mod scope;
 pub mod shaders;
+mod sizes;
 mod stages;
 mod steps;
 mod sync;

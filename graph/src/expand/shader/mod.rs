@@ -13,6 +13,7 @@ pub(super) mod coverage;
 mod interfaces;
 pub(super) mod local;
 pub(super) mod params;
+mod parts_in_use;
 pub(super) mod rotation;
 pub(super) mod sampled_images;
 pub(super) mod samplers;

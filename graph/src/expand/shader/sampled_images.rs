@@ -1,13 +1,13 @@
 //! Images that a shader samples: the parts that the pass gives, against the shader's declarations.
 
 use super::interfaces::{declared_otherwise, shape_words};
-use super::{arrays, compared_depth, storage, variant};
+use super::{arrays, compared_depth, parts_in_use, storage};
 use crate::base::{Code, Diagnostic, nearest, suggestion};
 use crate::expand::resources::{FrameImage, Resources, parts};
 use crate::frame::check::targets::size_words;
 use crate::frame::{self, EyeForm, Pass, SampledImage};
 use crate::language::{self, Face};
-use crate::shader::{BindingKind, MOST_PARTS, PASS_SET, ShaderInterface, declared_name, element_of};
+use crate::shader::{BindingKind, PASS_SET, ShaderInterface, element_of};
 use crate::vulkan::{
     AddressMode, Aspects, BorderColor, Component, Dimension, Filter, Format, ImageShape, Sampler, Shape, Subresources,
 };
@@ -182,7 +182,7 @@ pub(in crate::expand) fn check<'i>(
             check.part(interface, errors);
         }
     }
-    too_many_parts(resources, pass, errors);
+    parts_in_use::too_many(resources, pass, errors);
     misspelt
 }
 
@@ -358,7 +358,7 @@ impl Check<'_> {
         let declared = self.resources.declared(self.sample.part.image.index).size.span;
         let seen = (self.shader, &**name, &self.sample.part);
         let by = format!("uv_adjust(uv, {name}_st)");
-        errors.extend(not_asked(self.resources, interface, seen, ["samples", &by]));
+        errors.extend(parts_in_use::not_asked(self.resources, interface, seen, ["samples", &by]));
         if element_of(name).is_some() {
             return;
         }
@@ -431,43 +431,6 @@ impl Check<'_> {
             let targets = format!("`{}` is {}", target.name, size_words(drawn, target));
             errors.push(Diagnostic::new(Code::OWN_PIXEL, span, message).remark(more).help(targets));
         }
-    }
-}
-
-/// The mistake of a shader that samples or reads the image `part` as `name`, of which only a part is in use, and doesn't ask for that part;
-/// `None` if it asks. `by`: how it could find the part.
-pub(super) fn not_asked(
-    resources: &Resources<'_>,
-    interface: &ShaderInterface,
-    (shader, name, part): (&str, &str, &language::ImagePart),
-    [reads, by]: [&str; 2],
-) -> Option<Diagnostic> {
-    let (image, span) = (&resources.declared(part.image.index).name.text, part.image.span);
-    let wrong = |message: String, help: String| {
-        let declared = resources.declared(part.image.index).size.span;
-        Some(Diagnostic::new(Code::PART_NOT_ASKED, span, message).label(declared, "its size may change").help(help))
-    };
-    if element_of(name).is_some() {
-        let array = declared_name(name);
-        let message = format!(
-            "only a part of `{image}` is in use, and shader `{shader}` can't be told which of the elements of `{array}` are so"
-        );
-        return wrong(message, "give it a fixed size, or declare an image of its own in the shader".to_owned());
-    }
-    if interface.asks_part.iter().any(|asked| **asked == *name) {
-        return None;
-    }
-    let message = format!("shader `{shader}` {reads} `{name}` and doesn't ask which part of `{image}` is in use");
-    wrong(message, format!("include `include/part.glsl` and look it up by `{by}`"))
-}
-
-/// A shader can be told of some parts only.
-fn too_many_parts(resources: &Resources<'_>, pass: &language::Pass, errors: &mut Vec<Diagnostic>) {
-    if let Some((_, surplus)) = variant::in_part(resources, pass).nth(MOST_PARTS) {
-        let message = format!("pass `{}` sees more than {MOST_PARTS} images that are used in part", pass.name.text);
-        errors.push(
-            Diagnostic::new(Code::PART_NOT_ASKED, surplus.image.span, message).help("give some of them a fixed size"),
-        );
     }
 }
 

@@ -1,7 +1,7 @@
 //! Images and buffers that a shader reads and writes by itself, against its declarations.
 
 use super::interfaces::{declared_otherwise, shape_words};
-use super::{arrays, sampled_images};
+use super::{arrays, parts_in_use, sampled_images};
 use crate::base::{Code, Diagnostic, Span, nearest, suggestion};
 use crate::expand::resources::{Resources, parts};
 use crate::frame::{BufferRole, BufferUse, Image, Pass, Resource, Storage};
@@ -141,7 +141,7 @@ pub(in crate::expand) fn check<'i>(
                 // What is stored beyond the part nobody sees.
                 if image.allocated.is_some() && kind.and_then(BindingKind::storage).is_some_and(|(reads, _)| reads) {
                     let by = format!("part_extent(imageSize({0}), {0}_st)", name.text);
-                    errors.extend(sampled_images::not_asked(
+                    errors.extend(parts_in_use::not_asked(
                         resources,
                         interface,
                         (shader, &name.text, part),

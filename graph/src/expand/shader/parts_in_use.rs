@@ -1,0 +1,44 @@
+//! Images of which a part is in use: a shader that sees one asks which part it is.
+
+use super::variant;
+use crate::base::{Code, Diagnostic};
+use crate::expand::resources::Resources;
+use crate::language;
+use crate::shader::{MOST_PARTS, ShaderInterface, declared_name, element_of};
+
+/// The mistake of a shader that samples or reads the image `part` as `name`, of which only a part is in use, and doesn't ask for that part;
+/// `None` if it asks. `by`: how it could find the part.
+pub(super) fn not_asked(
+    resources: &Resources<'_>,
+    interface: &ShaderInterface,
+    (shader, name, part): (&str, &str, &language::ImagePart),
+    [reads, by]: [&str; 2],
+) -> Option<Diagnostic> {
+    let (image, span) = (&resources.declared(part.image.index).name.text, part.image.span);
+    let wrong = |message: String, help: String| {
+        let declared = resources.declared(part.image.index).size.span;
+        Some(Diagnostic::new(Code::PART_NOT_ASKED, span, message).label(declared, "its size may change").help(help))
+    };
+    if element_of(name).is_some() {
+        let array = declared_name(name);
+        let message = format!(
+            "only a part of `{image}` is in use, and shader `{shader}` can't be told which of the elements of `{array}` are so"
+        );
+        return wrong(message, "give it a fixed size, or declare an image of its own in the shader".to_owned());
+    }
+    if interface.asks_part.iter().any(|asked| **asked == *name) {
+        return None;
+    }
+    let message = format!("shader `{shader}` {reads} `{name}` and doesn't ask which part of `{image}` is in use");
+    wrong(message, format!("include `include/part.glsl` and look it up by `{by}`"))
+}
+
+/// A shader can be told of some parts only.
+pub(super) fn too_many(resources: &Resources<'_>, pass: &language::Pass, errors: &mut Vec<Diagnostic>) {
+    if let Some((_, surplus)) = variant::in_part(resources, pass).nth(MOST_PARTS) {
+        let message = format!("pass `{}` sees more than {MOST_PARTS} images that are used in part", pass.name.text);
+        errors.push(
+            Diagnostic::new(Code::PART_NOT_ASKED, surplus.image.span, message).help("give some of them a fixed size"),
+        );
+    }
+}
