@@ -186,5 +186,5 @@ room! {
     ///
     /// A shader in HLSL, Slang, WGSL or SPIR-V has several uniform blocks that the pass gives no buffer, and none of them is called
     /// `params`. Put their members into one, or give the others buffers.
-    PARAM_BLOCKS = 843,
+    PARAM_BLOCKS = 833,
 }
