@@ -285,7 +285,7 @@ fn in_a_scope_with_local_reads_pipelines_of_the_programs_own_draw_into_their_col
     let mut small = Small::default();
     let [a, b] = ["a", "b"].map(|name| small.image(name, Format::R8G8B8A8_UNORM, [4, 2]));
     small.pass(draw("white", Draw::FullScreen).draws(a, whole, None));
-    let mut other = draw("other", Draw::Custom).samples("source", a, whole).draws(b, whole, None);
+    let mut other = draw("other", Draw::Custom).samples("source", a, whole).draws(b, whole, Some([0.0; 4]));
     other.sampled[0].own_pixel = true;
     small.pass(other);
     [a, b].into_iter().for_each(|image| small.image_output(image));
