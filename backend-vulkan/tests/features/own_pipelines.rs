@@ -4,7 +4,7 @@ use crate::frames::{Small, Uses, draw, on_each_driver, planned};
 use ash::vk;
 use framewright_graph::base::Span;
 use framewright_graph::compile::Options;
-use framewright_graph::frame::{DepthTarget, Draw, Image};
+use framewright_graph::frame::{DepthTarget, Draw, DrawList, Image};
 use framewright_graph::shader::{DrawInterface, SuppliedKind, SuppliedResource};
 use framewright_graph::vulkan::{CompareOp, Format, Subresources};
 use framewright_vulkan::{
@@ -43,6 +43,11 @@ const SHADERS: &[(&str, &str)] = &[
         layout(set = 0, binding = 0) uniform sampler2D seen;
         layout(location = 0) out vec4 color;
         void main() { color = texelFetch(seen, ivec2(gl_FragCoord.xy), 0); }",
+    ),
+    (
+        "objects.vert",
+        "#version 460
+        void main() { gl_Position = vec4(vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 4.0 - 1.0, 0.0, 1.0); }",
     ),
     (
         "other.frag",
@@ -285,7 +290,8 @@ fn in_a_scope_with_local_reads_pipelines_of_the_programs_own_draw_into_their_col
     let mut small = Small::default();
     let [a, b] = ["a", "b"].map(|name| small.image(name, Format::R8G8B8A8_UNORM, [4, 2]));
     small.pass(draw("white", Draw::FullScreen).draws(a, whole, None));
-    let mut other = draw("other", Draw::Custom).samples("source", a, whole).draws(b, whole, Some([0.0; 4]));
+    let mut other =
+        draw("other", Draw::Objects(DrawList::Opaque)).samples("source", a, whole).draws(b, whole, Some([0.0; 4]));
     other.sampled[0].own_pixel = true;
     small.pass(other);
     [a, b].into_iter().for_each(|image| small.image_output(image));
