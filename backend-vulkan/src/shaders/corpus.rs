@@ -1,6 +1,7 @@
 //! What is read off modules of many compilers: tests/compilers/corpus.sh makes them, and holds these facts against other readers.
 
 use super::module_file::ModuleFile;
+use super::program_supply::ProgramSupply;
 use super::reflect::{StageInterface, reflect};
 use super::validator::judge;
 use super::varyings::Varying;
@@ -60,7 +61,7 @@ fn interface(module: &ModuleFile, stage: ShaderStage, entry: Option<&str>) -> Re
     if let Verdict::Invalid(finding) = judge(&spirv) {
         return Err(format!("invalid: {}", finding.words));
     }
-    reflect(stage, &spirv, false, false, &[]).map_err(|refused| format!("{refused:?}"))
+    reflect(stage, &spirv, false, false, &ProgramSupply::default()).map_err(|refused| format!("{refused:?}"))
 }
 
 /// A fact a line: what it is of, and what it is.

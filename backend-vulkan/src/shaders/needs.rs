@@ -123,7 +123,7 @@ fn wide_and_narrow(module: &IndexedModule<'_>) -> Vec<Feature> {
 /// An end of an invocation that no other invocation sees.
 fn ends_invocations(module: &IndexedModule<'_>) -> Option<Feature> {
     let ends = module.code().any(|it| it.class.opcode == Op::TerminateInvocation);
-    ends.then(|| Feature {
+    ends.then_some(Feature {
         name: "shaderTerminateInvocation",
         words: Words::Beginning(&["discard", "terminateInvocation"]),
     })
