@@ -89,6 +89,7 @@ fn with_values(frame: &Frame, value: u8) -> Frame {
                 ParamValue::Bool(_) => ParamValue::Bool(value > 100),
                 ParamValue::Integer(_) => ParamValue::Integer(value.into()),
                 ParamValue::Number(_) => ParamValue::Number(number.into()),
+                ParamValue::OfFrame(which) => ParamValue::OfFrame(*which),
                 ParamValue::List(list) => ParamValue::list(list.iter().map(|_| ParamValue::Number(number.into()))),
             };
         }
