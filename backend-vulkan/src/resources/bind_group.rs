@@ -172,7 +172,7 @@ impl Device {
         }
         check_brought(interface).map_err(bad)?;
         let supplied: Vec<_> = interface.supplied.iter().filter(|it| it.set == set).collect();
-        let of_set = supplied.iter().map(|it| SuppliedResource::clone(it)).collect();
+        let of_set = supplied.iter().copied().cloned().collect();
         let of_set = DrawInterface { supplied: of_set, ..DrawInterface::default() };
         check_needs(&self.gpu, &ShaderInterface::default(), &of_set, &[], 0).map_err(bad)?;
         if let Some((binding, _)) =

@@ -149,7 +149,7 @@ fn what_cannot_be_is_refused_in_words() {
         }),
         ("pass `opaque` draws lines 0.5 texels wide", |frame| frame.passes[1].raster.line_width = half()),
         ("pass `fill` has a raster state and draws into nothing", |frame| frame.passes[0].raster.depth_clamp = true),
-        ("pass `blend` can't sample `source1` so: anisotropy goes with a linear filter", |frame| {
+        ("pass `blend` can't sample `source1` so: it is anisotropic, and its filter isn't linear", |frame| {
             frame.passes[2].sampled[1].sampler = Sampler { anisotropy: 4, ..Sampler::new(Filter::Nearest) };
         }),
         ("`opaque` writes `color` in two ways at once", |frame| {

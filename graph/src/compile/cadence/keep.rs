@@ -198,7 +198,7 @@ impl Walk<'_> {
     fn name(&self, op: u32) -> &str {
         let Walk { frame, adapted, .. } = self;
         let target = || adapted.uses(op).last().map_or("", |used| resource_name(frame, adapted, used.resource));
-        op_name(frame, adapted, op).map_or_else(target, |name| name)
+        op_name(frame, adapted, op).map_or_else(target, |name| &**name)
     }
 }
 

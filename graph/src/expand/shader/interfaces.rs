@@ -16,6 +16,9 @@ use std::sync::Arc;
 /// The most bindings that are searched one by one; among more, a name is looked up.
 const MANY_GIVEN: usize = 16;
 
+/// A draw, if it is one, and the name of what the program records, if it is that.
+type Asked = (Option<Draw>, Option<Arc<str>>);
+
 /// Shader interfaces, each of whose mistakes is reported once.
 pub(in crate::expand) struct CheckedShaders<'s> {
     shaders: &'s mut dyn ShaderInterfaces,
@@ -23,7 +26,7 @@ pub(in crate::expand) struct CheckedShaders<'s> {
     seen: HashSet<(Arc<str>, Option<Draw>)>,
     /// What the draw source brings along for each draw that was asked about (`None`: for compute shaders), and of custom passes for each
     /// name.
-    brought: Vec<((Option<Draw>, Option<Arc<str>>), Arc<DrawInterface>)>,
+    brought: Vec<(Asked, Arc<DrawInterface>)>,
     /// The sets that the program binds itself.
     program_sets: Vec<ProgramSet>,
     /// Shaders that have no interface, and why: one may draw several things.

@@ -3,12 +3,13 @@
 use crate::testing::hand_written_plans;
 use framewright_graph::frame::{Allowances, Blend, Cascade, Draw, DrawList, Jitter, Share};
 use framewright_graph::plan::{
-    BindingKind, FORMAT_VERSION, ImageBarrier, Output, Plan, PlanError, RenderScope, Resource, Role, View, Work,
+    BindingKind, FORMAT_VERSION, FirstContents, ImageBarrier, Output, Plan, PlanError, RenderScope, Resource, Role,
+    View, Work,
 };
 use framewright_graph::verify::verify;
 use framewright_graph::vulkan::{
-    Accesses, AddressMode, CompareOp, Component, Dimension, Filter, Format, ImageShape, Layout, LoadOp, ResolveMode,
-    Rotation, Sampler, Shape, Stages, StoreOp, Subresources, Usage,
+    Accesses, AddressMode, CompareOp, Component, Dimension, FillValue, Filter, Format, ImageShape, Layout, LoadOp,
+    ResolveMode, Rotation, Sampler, Shape, Stages, State, StoreOp, Subresources, Usage,
 };
 use serde_json::Value;
 
@@ -62,19 +63,19 @@ fn every_mistake_of_form_is_said() {
         (|plan| plan.images[2].allocated = Some([1, 4096]), "`color.resolved`: uses more than it has room for"),
         (|plan| plan.images[2].allocated = Some([4096, 1]), "`color.resolved`: uses more than it has room for"),
         (
-            |plan| (plan.images[2].allocated, plan.images[2].mips) = (Some([4096, 4096]), 2),
-            "`color.resolved`: changes its size and is deep, a cube or has several mip levels",
-        ),
-        (
-            |plan| plan.images[3].allocated = Some([4096, 4096]),
-            "`screen`: changes its size and outlives the frame, or is used as storage",
+            |plan| (plan.images[2].allocated, plan.images[2].shape) = (Some([4096, 4096]), Shape::Cube),
+            "`color.resolved`: changes its size and is deep or a cube",
         ),
         (
             |plan| {
-                let image = &mut plan.images[2];
-                (image.allocated, image.usage) = (Some([4096, 4096]), image.usage | Usage::STORAGE);
+                let state =
+                    State { stages: Stages::COPY, accesses: Accesses::empty(), layout: Layout::TransferSrcOptimal };
+                let initial = FirstContents::Value(FillValue::Color([0.0; 4]));
+                let (becomes, before, after) = (plan.images[3].id.0, state, state);
+                plan.images[3].allocated = Some([4096, 4096]);
+                plan.images[3].role = Role::Persistent { becomes, initial, before, after };
             },
-            "`color.resolved`: changes its size and outlives the frame, or is used as storage",
+            "`screen`: changes its size and is the same image in each frame",
         ),
         (
             |plan| {
