@@ -61,7 +61,7 @@ fn of_scene(problem: &SceneError) -> Option<Code> {
     Some(match problem {
         SceneError::Text { .. } => return None,
         SceneError::Kind { .. } => Code::SCENE_KIND,
-        SceneError::Unreadable { .. } => Code::FILE_UNREADABLE,
+        SceneError::Unreadable { .. } | SceneError::LeftOut { .. } => Code::FILE_UNREADABLE,
         SceneError::TooLarge { .. } => Code::FILE_TOO_LARGE,
         SceneError::NotText { .. } => Code::FILE_NOT_TEXT,
         SceneError::Gltf { .. } => Code::SCENE_GLTF,

@@ -148,6 +148,21 @@ const UNSUPPORTED: &[UnsupportedFeature] = &[
         &["image2DMS", "uimage2DMS", "iimage2DMS"],
         "storage images with several samples: sample them by a `sampler2DMS`",
     ),
+    (
+        &[Capability::PhysicalStorageBufferAddresses],
+        &["buffer_reference"],
+        "addresses of buffers, which aren't bounded: put the buffers into a set of the program's, and take them by number",
+    ),
+    (
+        &[Capability::RayQueryKHR],
+        &["rayQueryEXT"],
+        "ray queries: let a `custom` pass trace, with a pipeline of the program's own",
+    ),
+    (
+        &[Capability::FragmentShadingRateKHR],
+        &["gl_ShadingRateEXT", "gl_PrimitiveShadingRateEXT"],
+        "rates of shading: rendering scopes have no attachment of them",
+    ),
 ];
 
 /// Refuses what isn't supported, with the words that need it and what to write instead. Returns the features that a device must have.

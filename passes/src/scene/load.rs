@@ -51,7 +51,6 @@ pub enum SceneError {
         mistakes: Vec<Diagnostic>,
     },
     /// A `.glb` or `.gltf` file, and this program was built without the feature `gltf`.
-    #[cfg(not(feature = "gltf"))]
     #[error("{}: this program reads no glTF: build it with the feature `gltf` of Framewright", shown(path))]
     LeftOut {
         /// The file.
@@ -69,11 +68,12 @@ pub enum SceneError {
 }
 
 impl SceneError {
-    /// Whether nothing is wrong with the files: the machine doesn't let one be read.
+    /// Whether nothing is wrong with the files: the machine doesn't let one be read, or this program has no reader for it.
     #[must_use]
     pub fn is_of_machine(&self) -> bool {
         match self {
             SceneError::Unreadable { source, .. } => is_of_machine(source),
+            SceneError::LeftOut { .. } => true,
             #[cfg(feature = "gltf")]
             SceneError::Gltf { error, .. } => error.is_of_machine(),
             _ => false,
