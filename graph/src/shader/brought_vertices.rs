@@ -1,14 +1,10 @@
 //! The vertices that a draw source brings along: its buffers, and the attributes in them.
 
-use super::{DrawFault, DrawInterface, DrawPart, VertexInput, location_name};
-use crate::device::{Limit, Need, NeedKind};
+use super::{VertexInput, location_name};
 use crate::vulkan::{Component, VertexFormat};
 use std::borrow::Cow;
 
-/// Vulkan's name of the feature that several instances in a row with one element need.
-const DIVISOR: &str = "vertexAttributeInstanceRateDivisor";
-
-/// A vertex buffer, by the number of its binding in [`DrawInterface::vertex_buffers`].
+/// A vertex buffer, by the number of its binding in [`DrawInterface::vertex_buffers`](super::DrawInterface::vertex_buffers).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct VertexBuffer {
     /// Bytes from element to element, at least 1.
@@ -85,6 +81,20 @@ impl VertexBuffer {
     #[must_use]
     pub const fn of_instances(stride: u32) -> VertexBuffer {
         VertexBuffer { stride, rate: VertexRate::Instance { divisor: 1 } }
+    }
+
+    /// What is wrong with it as the buffer of this number, in words.
+    pub(super) fn fault(self, number: usize) -> Option<String> {
+        Some(match (self.stride, self.rate) {
+            (0, _) => format!("the vertices of buffer {number} have no bytes: leave the buffer out"),
+            (_, VertexRate::Instance { divisor: 65536.. }) => {
+                format!("vertex buffer {number} has one element for more instances than every device allows, 65535")
+            }
+            (_, VertexRate::Instance { divisor: 0 }) => {
+                format!("vertex buffer {number} has one element for 0 instances; 1 is the least")
+            }
+            _ => return None,
+        })
     }
 }
 
@@ -172,110 +182,6 @@ impl Attribute {
             false => format!("{what}: places of {format} are multiples of {alignment} bytes"),
         })
     }
-}
-
-impl DrawInterface {
-    /// The attribute that a shader means, if it is brought along.
-    #[must_use]
-    pub fn attribute(&self, input: &VertexInput) -> Option<&Attribute> {
-        self.attributes.iter().find(|attribute| attribute.is_called(input))
-    }
-
-    /// Where a shader's attribute is read, location by location.
-    ///
-    /// # Errors
-    /// [`AttributeMisfit`], if what is brought along isn't what the shader declares.
-    pub fn locations(
-        &self,
-        input: &VertexInput,
-    ) -> Result<impl Iterator<Item = BroughtLocation> + use<>, AttributeMisfit> {
-        let there = self.attribute(input).ok_or(AttributeMisfit::Unknown)?;
-        let (count, component) = input.read_as().ok_or(AttributeMisfit::Format(there.format))?;
-        let misfit = match () {
-            () if input.component != 0 => Some(AttributeMisfit::Component),
-            () if component != there.format.component() => Some(AttributeMisfit::Format(there.format)),
-            () if count > there.locations => Some(AttributeMisfit::Locations(there.locations)),
-            () => None,
-        };
-        if let Some(misfit) = misfit {
-            return Err(misfit);
-        }
-        let Attribute { format, buffer, offset, .. } = *there;
-        let first = input.location;
-        Ok((0..count).map(move |number| BroughtLocation {
-            location: first.saturating_add(number),
-            buffer,
-            offset: offset + number * format.bytes(),
-            format,
-        }))
-    }
-
-    /// Whether a shader with these attributes reads any by instances.
-    #[must_use]
-    pub fn reads_by_instance(&self, inputs: &[VertexInput]) -> bool {
-        let mut read = inputs.iter().filter_map(|input| self.attribute(input));
-        read.any(|it| self.vertex_buffers.get(it.buffer as usize).is_some_and(|buffer| buffer.rate.is_by_instance()))
-    }
-
-    /// What is wrong with its vertex buffers.
-    pub(super) fn buffer_faults(&self) -> impl Iterator<Item = DrawFault> {
-        self.vertex_buffers.iter().enumerate().filter_map(|(number, VertexBuffer { stride, rate })| {
-            let message = match (stride, rate) {
-                (0, _) => format!("the vertices of buffer {number} have no bytes: leave the buffer out"),
-                (_, VertexRate::Instance { divisor: 65536.. }) => {
-                    format!("vertex buffer {number} has one element for more instances than every device allows, 65535")
-                }
-                (_, VertexRate::Instance { divisor: 0 }) => {
-                    format!("vertex buffer {number} has one element for 0 instances; 1 is the least")
-                }
-                _ => return None,
-            };
-            Some(DrawFault { at: DrawPart::VertexBuffer(number), message, first: None })
-        })
-    }
-}
-
-/// What reading a shader's attributes out of the buffers of a draw source asks of the device. Attributes that don't fit ask for nothing.
-#[must_use]
-pub fn vertex_needs(inputs: &[VertexInput], brought: &DrawInterface) -> Vec<Need> {
-    let mut needs = Vec::new();
-    let mut need = |kind| {
-        let need = Need { kind, place: "".into() };
-        if !needs.contains(&need) {
-            needs.push(need);
-        }
-    };
-    for input in inputs {
-        let Ok(locations) = brought.locations(input) else { continue };
-        for BroughtLocation { location, buffer, offset, format } in locations {
-            if !format.is_on_every_device() {
-                need(NeedKind::VertexFormat { format, name: input.name.as_str().into() });
-            }
-            let Some(VertexBuffer { stride, rate }) = brought.vertex_buffers.get(buffer as usize).copied() else {
-                continue;
-            };
-            let limits = [
-                (
-                    Limit::VertexAttributes,
-                    u64::from(location) + 1,
-                    "the locations of its vertex attributes go up to",
-                    location,
-                ),
-                (Limit::VertexBuffers, u64::from(buffer) + 1, "its vertex buffers go up to", buffer),
-                (Limit::VertexOffset, u64::from(offset), "the offset of a vertex attribute is", offset),
-                (Limit::VertexStride, u64::from(stride), "the bytes from vertex to vertex are", stride),
-            ];
-            for (limit, value, what, said) in limits {
-                if value > limit.least() {
-                    need(NeedKind::Limit { limit, value, what: format!("{what} {said}").into() });
-                }
-            }
-            if matches!(rate, VertexRate::Instance { divisor: 2.. }) {
-                need(NeedKind::Feature { name: DIVISOR, what: "a vertex attribute that several instances share" });
-            }
-        }
-    }
-    needs
 }
 
 impl AttributeMisfit {

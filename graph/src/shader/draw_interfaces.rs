@@ -78,11 +78,9 @@ impl DrawInterfaces {
     /// which the program knows it.
     #[must_use]
     pub fn of_pass(&self, draw: Option<Draw>, name: &str) -> DrawInterface {
-        match draw {
-            None => self.of_kind(DrawKind::Compute),
-            Some(Draw::Custom) => self.of_custom.get(name).cloned().unwrap_or_else(|| self.of(Draw::Custom)),
-            Some(draw) => self.of(draw),
-        }
+        let Some(draw) = draw else { return self.of_kind(DrawKind::Compute) };
+        let custom = if draw.is_custom() { self.of_custom.get(name) } else { None };
+        custom.cloned().unwrap_or_else(|| self.of(draw))
     }
 
     /// The interface of a kind of draw, or of compute passes.

@@ -1,5 +1,6 @@
 //! The file of a draw source's interfaces.
 
+use super::interface_values::{list, number};
 use super::interface_vertices::{self, VertexFields, VertexPlaces};
 use super::{
     DrawInterface, DrawInterfaces, DrawKind, DrawPart, InterfaceOf, PushConstants, SuppliedKind, SuppliedResource,
@@ -299,10 +300,6 @@ impl<'t> Places<'t> {
     }
 }
 
-pub(super) fn list<'t>(reader: &mut Reader, leaf: Option<Leaf<'t>>, what: &str) -> Vec<Leaf<'t>> {
-    leaf.and_then(|leaf| reader.list(leaf, what)).unwrap_or_default()
-}
-
 fn pushed(reader: &mut Reader, leaf: Leaf<'_>) -> Option<PushConstants> {
     let fields: PushFields<'_> = reader.read(leaf, "push constants")?;
     let stages = match fields.stages {
@@ -328,14 +325,4 @@ fn supplied(reader: &mut Reader, leaf: Leaf<'_>) -> Option<SuppliedResource> {
         kind: kind?,
         count: count?,
     })
-}
-
-/// A whole number that isn't negative.
-pub(super) fn number(reader: &mut Reader, leaf: Leaf<'_>, what: &str) -> Option<u32> {
-    let number = reader.integer(leaf)?;
-    let small = u32::try_from(number).ok();
-    if small.is_none() {
-        reader.wrong(Code::NUMBER_OUTSIDE, leaf, format!("{what} can't be {number}"), "");
-    }
-    small
 }

@@ -1,6 +1,6 @@
 //! The program's sets in the file of a draw source's interfaces.
 
-use super::interface_file::{list, number};
+use super::interface_values::{list, number};
 use super::{BindingFlags, DescriptorType, DrawInterfaces, ProgramBinding, ProgramSet};
 use crate::base::Code;
 use crate::fields;

@@ -1,6 +1,6 @@
 //! Vertex buffers and attributes in the file of a draw source's interfaces.
 
-use super::interface_file::{list, number};
+use super::interface_values::{list, number};
 use super::{Attribute, DrawInterface, DrawPart, VertexBuffer, VertexRate};
 use crate::base::Code;
 use crate::fields;

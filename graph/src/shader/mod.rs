@@ -1,7 +1,9 @@
 //! The interface of a shader, as data: a backend reads it off SPIR-V; `check` needs it, and no device.
 
+mod brought_needs;
 mod brought_vertices;
 mod constant;
+mod draw_faults;
 mod draw_interface;
 mod draw_interfaces;
 mod draw_kind;
@@ -9,6 +11,7 @@ mod element;
 mod given_names;
 mod interface_file;
 mod interface_sets;
+mod interface_values;
 mod interface_vertices;
 mod needs;
 mod param_type;
@@ -28,9 +31,11 @@ use std::collections::HashSet;
 use std::fmt;
 use std::sync::Arc;
 
-pub use brought_vertices::{Attribute, AttributeMisfit, BroughtLocation, VertexBuffer, VertexRate, vertex_needs};
+pub use brought_needs::{push_needs, vertex_needs};
+pub use brought_vertices::{Attribute, AttributeMisfit, BroughtLocation, VertexBuffer, VertexRate};
 pub use constant::{ConstantValue, ShaderConstant};
-pub use draw_interface::{DrawFault, DrawInterface, DrawPart, SuppliedKind, SuppliedResource};
+pub use draw_faults::{DrawFault, DrawPart};
+pub use draw_interface::{DrawInterface, SuppliedKind, SuppliedResource};
 pub use draw_interfaces::DrawInterfaces;
 pub use draw_kind::DrawKind;
 use draw_kind::InterfaceOf;
@@ -44,7 +49,7 @@ pub use place_names::{
 pub use program_set::{
     BindingFlags, DescriptorType, ProgramBinding, ProgramResource, ProgramSet, bindings_of_read_sets, set_needs,
 };
-pub use push_constants::{PushConstants, PushedBlock, push_needs};
+pub use push_constants::{PushConstants, PushedBlock};
 pub use set_faults::SetFault;
 pub use shader_name::{FileLanguage, LanguageFacts, ShaderName, StageName};
 pub use vertex_layout::{LayoutFault, LocationLayout, VertexInput, VertexLayout};

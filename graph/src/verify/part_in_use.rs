@@ -1,7 +1,7 @@
 //! Images of which a frame uses a part: how large it is, and who may see them.
 
 use super::findings::Findings;
-use crate::plan::{Attachment, Image, ImageId, Plan, Role, Side, Step, Work};
+use crate::plan::{Image, Plan, Role};
 use crate::vulkan::Shape;
 
 /// Texels that a linear filter reads along an axis.
@@ -29,7 +29,9 @@ fn halved(texels: u32, times: u32) -> u32 {
 
 /// Whether what an image holds when the frame ends may have another size than what it holds now: an earlier frame made it.
 pub(super) fn may_have_another_size(plan: &Plan, image: &Image) -> bool {
-    image.allocated.is_some() && !matches!(image.role, Role::Transient(_)) && !is_written(plan, image.id)
+    image.allocated.is_some()
+        && !matches!(image.role, Role::Transient(_))
+        && !plan.steps.iter().any(|step| step.work.writes(image.id))
 }
 
 /// Checks an image of which a part is in use. A reader that isn't told which part it is would see texels that no pass wrote.
@@ -45,25 +47,4 @@ pub(super) fn check(image: &Image, [width, height]: [u32; 2], found: &mut Findin
     if matches!(image.role, Role::Persistent { becomes, .. } if becomes == image.id.0) {
         wrong("changes its size and is the same image in each frame");
     }
-}
-
-/// Whether a step writes it.
-fn is_written(plan: &Plan, image: ImageId) -> bool {
-    plan.steps.iter().any(|step| writes(step, image))
-}
-
-fn writes(step: &Step, image: ImageId) -> bool {
-    let passes = step.work.passes().iter().flat_map(|pass| &pass.accesses);
-    let mut stored = passes.filter(|access| !access.accesses.writes().is_empty());
-    let attached = |attachment: &Attachment| {
-        attachment.image == image || attachment.resolve.as_ref().is_some_and(|resolve| resolve.image == image)
-    };
-    let is = |side: &Side| matches!(side, Side::Image { image: of, .. } if *of == image);
-    let moved = match &step.work {
-        Work::Render(scope) => scope.attachments.iter().any(attached),
-        Work::Resolve(transfer) | Work::Copy(transfer) | Work::Blit(transfer) => is(&transfer.target),
-        Work::Fill(fill) => is(&fill.target),
-        Work::Dispatch(_) | Work::Custom(_) | Work::Export => false,
-    };
-    moved || stored.any(|access| access.image == image)
 }

@@ -120,6 +120,12 @@ impl Stages {
         ]
     }
 
+    /// The stages of a draw that have shaders.
+    #[must_use]
+    pub const fn of_draws() -> Stages {
+        Stages::VERTEX_SHADER.union(Stages::FRAGMENT_SHADER)
+    }
+
     /// All of these.
     #[must_use]
     pub const fn all_of_sets() -> Stages {
