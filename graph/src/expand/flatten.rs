@@ -5,7 +5,7 @@ use super::contents::{history, order, padding, storage_writes};
 use super::expander::Expander;
 use super::inputs::{Inputs, check_extent, surroundings};
 use super::mistakes::{ReportedMistakes, used_here};
-use super::outputs::{dumped, outputs};
+use super::outputs::{dumped, kept_dumps, outputs};
 use super::passes::{State, casters, depth_only, targets, views};
 use super::resources::Resources;
 use super::{decisions, eyes, passes, precision, settings, shader};
@@ -164,6 +164,7 @@ fn expand_so(
     let outputs = outputs(&resources, inputs, &mut errors);
     let cut = CutImages::new(&resources, states.iter().flat_map(State::runs));
     let parts = cut.parts();
+    kept_dumps(&resources, (&states, &outputs), &parts, &mut errors);
     let stored = storage_writes::keep(&resources, &mut states, &parts, &mut checked);
     order::check(&resources, &states, &outputs, &parts, (&mut reported, &mut errors));
     if errors.is_empty() {
