@@ -110,7 +110,8 @@ fn expand_so(
         }
     };
     let stereo = inputs.stereo;
-    let by_instance = |pass: &language::Pass| shader::draws_by_instance(shaders, pass);
+    let mut checked = shader::CheckedShaders::new(shaders, &sources);
+    let by_instance = |pass: &language::Pass| checked.draws_by_instance(pass);
     let eyes = eyes::Eyes { stereo, form: stereo.form(inputs.device), by_instance: &by_instance };
     let (pipeline, shared) = eyes::split(pipeline, &eyes, inputs.output_extent, &mut errors);
     let mut reported = ReportedMistakes::default();
@@ -118,7 +119,6 @@ fn expand_so(
     let mut resources = Resources::resolve(&pipeline, inputs, &mut reported, &mut errors);
     kept.iter_mut().for_each(|kept| kept.begin(&resources, inputs));
 
-    let mut checked = shader::CheckedShaders::new(shaders, &sources);
     let mut states = Vec::with_capacity(pipeline.passes.len());
     let mut switched_off = Vec::new();
     for pass in &pipeline.passes {
