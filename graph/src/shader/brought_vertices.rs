@@ -210,13 +210,6 @@ impl DrawInterface {
         }))
     }
 
-    /// Whether a shader with these attributes reads any by instances.
-    #[must_use]
-    pub fn reads_by_instance(&self, inputs: &[VertexInput]) -> bool {
-        let mut read = inputs.iter().filter_map(|input| self.attribute(input));
-        read.any(|it| self.vertex_buffers.get(it.buffer as usize).is_some_and(|buffer| buffer.rate.is_by_instance()))
-    }
-
     /// What is wrong with its vertex buffers.
     pub(super) fn buffer_faults(&self) -> impl Iterator<Item = DrawFault> {
         self.vertex_buffers.iter().enumerate().filter_map(|(number, VertexBuffer { stride, rate })| {
