@@ -6,18 +6,17 @@ use framewright_graph::device::Abilities;
 use framewright_graph::plan::{self, Plan};
 use framewright_graph::shader::{
     DrawInterface, DrawInterfaces, LocationLayout, PASS_SET, ProgramResource, ProgramSet, ShaderInterface,
-    SuppliedResource, VertexLayout, VertexRate, bindings_of_read_sets, push_needs, resource_needs, set_needs,
-    vertex_needs,
+    SuppliedResource, VertexLayout, VertexRate, needs_in_pass,
 };
 use framewright_graph::vulkan::Component;
 
 /// Checks a shader against the device's features and limits, with the vertices that it reads and the resources that the draw source brings
 /// along, whether the shader reads those or not, the program's sets of which it reads anything, and the number of its pass's targets.
-pub(crate) fn check_needs<'s>(
+pub(crate) fn check_needs(
     gpu: &Gpu,
-    shader: &'s ShaderInterface,
-    brought: &'s DrawInterface,
-    sets: &'s [ProgramSet],
+    shader: &ShaderInterface,
+    brought: &DrawInterface,
+    sets: &[ProgramSet],
     targets: usize,
 ) -> Result<(), String> {
     let limits = gpu.shader_limits();
@@ -27,19 +26,8 @@ pub(crate) fn check_needs<'s>(
         has: &|name| gpu.features.has(name),
         reads_vertices: &|format| gpu.reads_vertices(format),
     };
-    let mut of_vertices = vertex_needs(&shader.vertex_inputs, brought);
-    of_vertices.extend(push_needs(brought).filter(|_| !shader.pushed.is_empty()));
-    let of_resources =
-        resource_needs(shader, brought.supplied.iter(), bindings_of_read_sets(&shader.program, sets), targets);
-    let of_sets = set_needs(&shader.program, sets);
-    let unmet = shader
-        .needs
-        .iter()
-        .chain(&of_resources)
-        .chain(&of_sets)
-        .chain(&of_vertices)
-        .find_map(|need| need.unmet(&abilities));
-    unmet.map_or(Ok(()), Err)
+    let needs = needs_in_pass(shader, Some(brought), sets, targets);
+    needs.iter().find_map(|need| need.unmet(&abilities)).map_or(Ok(()), Err)
 }
 
 /// Sets from 1 on: what the shader reads must be what the draw brings along.

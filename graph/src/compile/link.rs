@@ -12,7 +12,7 @@ use std::ops::Range;
 pub(super) struct FrameLinks {
     /// The parts that are needed when the frame is done.
     pub(super) kept: Vec<Range<usize>>,
-    /// Whether no pass can be culled.
+    /// Whether no pass can be culled; `false` where that isn't known, because a pass doesn't run in every frame.
     pub(super) all_are_needed: bool,
 }
 
@@ -57,9 +57,12 @@ pub(super) fn link(frame: &Frame, parts: &Parts<'_>) -> Result<FrameLinks, Vec<D
     for writer in kept.iter().flat_map(|parts| &writers[parts.clone()]).filter(|writer| **writer != NOTHING) {
         needed[*writer as usize] = true;
     }
-    // `needed` may mark too many passes, never too few: a read counts even if its pass is culled. `all_are_needed` is exact, because
-    // all passes behind the last culled one stay, and none of them reads its writes.
-    let all_are_needed = frame.passes.iter().zip(&needed[1..]).all(|(pass, needed)| *needed || pass.side_effect);
+    // `needed` may mark too many passes, never too few: a read counts even if its pass is culled. Where all passes run in every frame,
+    // `all_are_needed` is exact, because all passes behind the last culled one stay, and none of them reads its writes. A pass that
+    // runs in some frames needs what it overwrites only if that is read.
+    let all_are_needed = frame.passes.iter().all(|pass| pass.run.is_always());
+    let all_are_needed =
+        all_are_needed && frame.passes.iter().zip(&needed[1..]).all(|(pass, needed)| *needed || pass.side_effect);
     Ok(FrameLinks { kept, all_are_needed })
 }
 

@@ -245,6 +245,8 @@ pub(super) enum OpKind {
     },
     /// An inserted copy; its uses are source and target.
     Copy(Box<InsertionCause>),
+    /// A copy in place of a pass that is off and forwards an image; its uses are source and target.
+    ForwardCopy(Box<InsertionCause>),
 }
 
 /// An inserted draw that has a name of its own.
@@ -276,7 +278,7 @@ impl OpKind {
             | OpKind::ForwardDraw { pass, .. }
             | OpKind::DepthOnly { pass, .. }
             | OpKind::FillAgain { pass, .. } => Some(*pass),
-            OpKind::ResolveDraw { .. } | OpKind::Resolve { .. } | OpKind::Copy(_) => None,
+            OpKind::ResolveDraw { .. } | OpKind::Resolve { .. } | OpKind::Copy(_) | OpKind::ForwardCopy(_) => None,
         }
     }
 
@@ -286,7 +288,11 @@ impl OpKind {
             OpKind::Draw(_) | OpKind::ForwardDraw { .. } | OpKind::DepthOnly { .. } | OpKind::ResolveDraw { .. } => {
                 true
             }
-            OpKind::Pass(_) | OpKind::FillAgain { .. } | OpKind::Resolve { .. } | OpKind::Copy(_) => false,
+            OpKind::Pass(_)
+            | OpKind::FillAgain { .. }
+            | OpKind::Resolve { .. }
+            | OpKind::Copy(_)
+            | OpKind::ForwardCopy(_) => false,
         }
     }
 
@@ -298,7 +304,8 @@ impl OpKind {
             OpKind::ForwardDraw { why, .. }
             | OpKind::FillAgain { why, .. }
             | OpKind::Resolve { why, .. }
-            | OpKind::Copy(why) => Some(why),
+            | OpKind::Copy(why)
+            | OpKind::ForwardCopy(why) => Some(why),
         }
     }
 }

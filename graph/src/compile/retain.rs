@@ -168,7 +168,9 @@ impl Walk<'_> {
         for op in &scope.ops {
             let Some(used) = adapted.uses(*op).iter().find(is_it) else { continue };
             made.written |= used.writes;
-            made.needs_before |= used.reads && !adapted.cadence(*op).is_always();
+            // What it would overwrite must be there if it is left out. Of what is transient nothing is read in frames without it.
+            let stays = used.writes && !adapted.resources[used.resource as usize].is_transient();
+            made.needs_before |= stays && !adapted.cadence(*op).is_always();
             if made.first != NONE {
                 continue;
             }

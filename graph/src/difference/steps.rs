@@ -28,6 +28,12 @@ impl<'p> EntryStep<'p> {
         needed_by.or(self.id).map_or_else(String::new, |id| self.plan.step_name(id))
     }
 
+    /// In which frames the step runs, unless it does in all.
+    fn runs(self) -> Option<(&'static str, String)> {
+        let run = self.step().map(|step| &step.run).filter(|run| !run.is_always())?;
+        Some(("runs", ShownText(&run.to_string()).to_string()))
+    }
+
     /// The first pass of the rendering scope.
     fn first(self) -> Option<&'p Pass> {
         self.step()?.work.scope()?.passes.first()
@@ -85,8 +91,7 @@ impl<'p> EntryStep<'p> {
         fields.push(("shader", code(&pass.shader)));
         let queue = self.step().map(|step| step.queue).filter(|queue| *queue != Queue::Graphics);
         fields.extend(queue.iter().map(|queue| ("queue", name_of(queue))));
-        let run = self.step().map(|step| &step.run).filter(|run| !run.is_always());
-        fields.extend(run.iter().map(|run| ("runs", ShownText(&run.to_string()).to_string())));
+        fields.extend(self.runs());
         fields.extend(pass.draw.iter().map(|draw| ("draw", in_plan(draw))));
         fields.extend(pass.groups.iter().map(|groups| ("workgroups", in_plan(groups))));
         fields.extend(pass.stencil.iter().map(|stencil| ("stencil", in_plan(stencil))));
@@ -159,6 +164,7 @@ impl<'p> EntryStep<'p> {
         let between = |kind, transfer: &Transfer, mut fields: Vec<(&'static str, String)>| {
             let [from, to] = [transfer.source, transfer.target].map(|side| self.side(side));
             fields.extend(transfer.filter.iter().map(|filter| ("filter", name_of(filter))));
+            fields.extend(self.runs());
             Some(Description::new(kind, format!("{from} → {to}"), fields))
         };
         match work {
@@ -169,7 +175,8 @@ impl<'p> EntryStep<'p> {
             Work::Copy(copy) => between(Kind::Transfer, copy, vec![("work", "copy".to_owned())]),
             Work::Blit(blit) => between(Kind::Transfer, blit, vec![("work", "blit".to_owned())]),
             Work::Fill(fill) => {
-                let fields = vec![("work", "fill".to_owned()), ("value", fill_value(self.plan, fill))];
+                let mut fields = vec![("work", "fill".to_owned()), ("value", fill_value(self.plan, fill))];
+                fields.extend(self.runs());
                 Some(Description::new(Kind::Transfer, self.side(fill.target), fields))
             }
             Work::Render(_) | Work::Dispatch(_) | Work::Custom(_) | Work::Export => None,

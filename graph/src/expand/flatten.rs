@@ -5,7 +5,7 @@ use super::contents::{history, order, padding, storage_writes};
 use super::expander::Expander;
 use super::inputs::{Inputs, check_extent, surroundings};
 use super::mistakes::{ReportedMistakes, used_here};
-use super::outputs::{dumped, outputs};
+use super::outputs::{dumped, kept_dumps, outputs};
 use super::passes::{State, casters, depth_only, targets, views};
 use super::resources::Resources;
 use super::{decisions, eyes, passes, precision, settings, shader};
@@ -110,7 +110,8 @@ fn expand_so(
         }
     };
     let stereo = inputs.stereo;
-    let by_instance = |pass: &language::Pass| shader::draws_by_instance(shaders, pass);
+    let mut checked = shader::CheckedShaders::new(shaders, &sources);
+    let by_instance = |pass: &language::Pass| checked.draws_by_instance(pass);
     let eyes = eyes::Eyes { stereo, form: stereo.form(inputs.device), by_instance: &by_instance };
     let (pipeline, shared) = eyes::split(pipeline, &eyes, inputs.output_extent, &mut errors);
     let mut reported = ReportedMistakes::default();
@@ -118,7 +119,6 @@ fn expand_so(
     let mut resources = Resources::resolve(&pipeline, inputs, &mut reported, &mut errors);
     kept.iter_mut().for_each(|kept| kept.begin(&resources, inputs));
 
-    let mut checked = shader::CheckedShaders::new(shaders, &sources);
     let mut states = Vec::with_capacity(pipeline.passes.len());
     let mut switched_off = Vec::new();
     for pass in &pipeline.passes {
@@ -164,6 +164,7 @@ fn expand_so(
     let outputs = outputs(&resources, inputs, &mut errors);
     let cut = CutImages::new(&resources, states.iter().flat_map(State::runs));
     let parts = cut.parts();
+    kept_dumps(&resources, (&states, &outputs), &parts, &mut errors);
     let stored = storage_writes::keep(&resources, &mut states, &parts, &mut checked);
     order::check(&resources, &states, &outputs, &parts, (&mut reported, &mut errors));
     if errors.is_empty() {

@@ -1,10 +1,12 @@
 //! Outputs of the frame: the pipeline's outputs, and images that are dumped.
 
 use super::inputs::Inputs;
+use super::passes;
 use super::resources::Resources;
 use crate::base::{Code, Diagnostic, Span, suggestion};
 use crate::frame::check::images::wrong_encoding;
-use crate::frame::{Eye, ImageIndex, Output, Resource};
+use crate::frame::tracked_parts::Parts;
+use crate::frame::{Eye, ImageIndex, Lifetime, Output, Pass, Resource};
 use crate::language::{self, Pipeline, State};
 use crate::ron::Spanned;
 use crate::vulkan::{AccessKind, Encoding, Rotation};
@@ -87,6 +89,40 @@ pub(super) fn dumped(pipeline: &Pipeline, dump: &[String], outputs: &mut Vec<Out
             if outputs.iter().all(|output| output.resource != resource) {
                 outputs.push(Output { eye, ..resource.into() });
             }
+        }
+    }
+}
+
+/// Reports dumped images that stay from frame to frame. A dump leaves the frame, which writes it anew.
+pub(super) fn kept_dumps(
+    resources: &Resources<'_>,
+    (states, outputs): (&[passes::State], &[Output]),
+    parts: &Parts<'_>,
+    errors: &mut Vec<Diagnostic>,
+) {
+    let dumped = &outputs[resources.pipeline.outputs.len()..];
+    if dumped.is_empty() || states.iter().flat_map(passes::State::runs).all(|pass| pass.run.is_always()) {
+        return;
+    }
+    let mut writers: Vec<Option<&Pass>> = vec![None; parts.len()];
+    for pass in states.iter().flat_map(passes::State::runs) {
+        parts.for_each_access(pass, |_, part, _, writes| {
+            if writes {
+                writers[part as usize] = Some(pass);
+            }
+        });
+    }
+    for Output { resource, .. } in dumped {
+        let is_transient = resources.lifetime(*resource).is_some_and(|it| *it == Lifetime::Transient);
+        let last = writers[parts.of(*resource)].iter().flatten().find(|pass| !pass.run.is_always());
+        if let Some(pass) = last.filter(|_| is_transient) {
+            let name = &resources.name(*resource).text;
+            let message = format!(
+                "`{name}` can't be dumped: `{}` runs {}, and what is dumped is written in each frame",
+                pass.name, pass.run
+            );
+            let help = "let another pass copy it in each frame, and dump the copy";
+            errors.push(Diagnostic::new(Code::KEPT_UNFIT, pass.span, message).help(help));
         }
     }
 }

@@ -15,7 +15,7 @@ pub enum Cadence {
     Once,
     /// In the first frame, and in each whose number divided by `count` leaves `at`.
     Every {
-        /// How many frames lie between two runs, from 2 to [`Cadence::LONGEST`].
+        /// How many frames it is from one run to the next, from 2 to [`Cadence::LONGEST`].
         count: u32,
         /// Below `count`.
         at: u32,
@@ -43,11 +43,12 @@ impl Cadence {
     /// What is wrong with it, if anything is.
     pub(crate) fn problem(&self) -> Option<String> {
         match self {
+            Cadence::Every { count, at } if *count > 0 && at >= count => Some(match count {
+                1 => format!("in frame {at} of 1, which has the number 0"),
+                _ => format!("in frame {at} of {count}, which are numbered from 0 to {}", count - 1),
+            }),
             Cadence::Every { count, .. } if !(2..=Cadence::LONGEST).contains(count) => {
                 Some(format!("every {count} frames; 2 to {} are possible", Cadence::LONGEST))
-            }
-            Cadence::Every { count, at } if at >= count => {
-                Some(format!("in frame {at} of {count}, which are numbered from 0 to {}", count - 1))
             }
             Cadence::WhenDirty(name) if name.is_empty() => Some("when something without a name is dirty".to_owned()),
             Cadence::Always | Cadence::Once | Cadence::Every { .. } | Cadence::WhenDirty(_) => None,

@@ -3,7 +3,7 @@
 use super::{Image, Pass, Plan, RenderScope, Resource};
 use crate::device::{DYNAMIC_RENDERING, EVERY_PLAN_USES, INDEPENDENT_BLEND, Need, NeedKind, SEPARATE_LAYOUTS};
 use crate::frame::{EyeForm, Stereo};
-use crate::shader::{ShaderInterfaces, ShaderProblem, set_needs};
+use crate::shader::{ShaderInterfaces, ShaderProblem, needs_in_pass};
 use crate::vulkan::{Accesses, Aspects, Layout, Stages, State, name_of};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -62,7 +62,9 @@ impl Plan {
                 (Err(ShaderProblem::Missing { .. }), Some(draw)) if draw.is_custom() => continue,
                 (Err(problem), _) => return Err((pass.shader.clone(), problem)),
             };
-            for Need { kind, place } in interface.needs.iter().chain(&set_needs(&interface.program, &sets)) {
+            let brought = shaders.brought_along(pass.draw, &pass.shader);
+            // How many targets there are is held to a limit, and no feature.
+            for Need { kind, place } in needs_in_pass(&interface, Some(&brought), &sets, 0) {
                 let NeedKind::Feature { name, what } = kind else { continue };
                 let place = if place.is_empty() { String::new() } else { format!(" ({place})") };
                 found.add(name, || format!("pass `{}`: {what}{place}", pass.name));

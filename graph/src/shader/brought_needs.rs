@@ -45,13 +45,6 @@ impl DrawInterface {
         }))
     }
 
-    /// Whether a shader with these attributes reads any by instances.
-    #[must_use]
-    pub fn reads_by_instance(&self, inputs: &[VertexInput]) -> bool {
-        let mut read = inputs.iter().filter_map(|input| self.attribute(input));
-        read.any(|it| self.vertex_buffers.get(it.buffer as usize).is_some_and(|buffer| buffer.rate.is_by_instance()))
-    }
-
     /// The byte behind the last push constant.
     #[must_use]
     pub fn pushed_bytes(&self) -> u32 {

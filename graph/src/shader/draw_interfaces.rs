@@ -20,12 +20,17 @@ pub struct DrawInterfaces {
 }
 
 impl DrawInterfaces {
-    /// With the interface of another kind of draw, in place of the one that it had. Compute passes have no vertices: those are left
-    /// out.
+    /// With the interface of another kind of draw, in place of the one that it had. What a kind can't have is left out: vertices of
+    /// full-screen passes, vertices and push constants of compute passes.
     #[must_use]
     pub fn with(mut self, kind: DrawKind, interface: DrawInterface) -> DrawInterfaces {
         let interface = match kind {
             DrawKind::Compute => DrawInterface { supplied: interface.supplied, ..DrawInterface::default() },
+            DrawKind::FullScreen => DrawInterface {
+                push_constants: interface.push_constants,
+                supplied: interface.supplied,
+                ..DrawInterface::default()
+            },
             _ => interface,
         };
         if interface == DrawInterface::default() {

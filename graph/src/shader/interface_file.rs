@@ -166,16 +166,28 @@ fn whole(reader: &mut Reader, all: Leaf<'_>) -> Option<DrawInterfaces> {
     for entry in reader.list(fields.draws, "the draws")? {
         let Some(fields) = reader.read::<DrawFields<'_>>(entry, "an entry of `draws`") else { continue };
         let kinds = kinds(reader, fields.of, &mut seen);
-        let vertices = fields.vertices();
+        let (vertices, pushed) = (fields.vertices(), fields.push_constants);
         let interface = interface(reader, fields);
-        if let Some(leaf) = vertices.told(&interface).filter(|_| kinds.contains(&InterfaceOf::Kind(DrawKind::Compute)))
-        {
-            reader.wrong(
-                Code::INTERFACE_FILE,
-                leaf,
-                "compute passes have no vertices",
+        let told = vertices.told(&interface);
+        let pushed = pushed.filter(|_| told.is_none() && !interface.push_constants.is_empty());
+        for (kind, leaf, what, help) in [
+            (DrawKind::Compute, told, "compute passes have no vertices", "give `Compute` an entry of its own"),
+            (
+                DrawKind::FullScreen,
+                told,
+                "full-screen passes have no vertices of a draw source",
+                "give `FullScreen` an entry of its own",
+            ),
+            (
+                DrawKind::Compute,
+                pushed,
+                "compute passes have no push constants of a draw source",
                 "give `Compute` an entry of its own",
-            );
+            ),
+        ] {
+            if let Some(leaf) = leaf.filter(|_| kinds.contains(&InterfaceOf::Kind(kind))) {
+                reader.wrong(Code::INTERFACE_FILE, leaf, what, help);
+            }
         }
         interfaces = kinds.into_iter().fold(interfaces, |all, of| match of {
             InterfaceOf::Kind(kind) => all.with(kind, interface.clone()),

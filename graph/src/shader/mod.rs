@@ -41,7 +41,7 @@ pub use draw_kind::DrawKind;
 use draw_kind::InterfaceOf;
 pub use element::{declared_name, element_name, element_of};
 pub use interface_file::LARGEST_INTERFACE;
-pub use needs::resource_needs;
+pub use needs::{needs_in_pass, resource_needs};
 pub use param_type::{ParamMisfit, ParamScalar, ParamType};
 pub use place_names::{
     GivenNames, PASS_SET, binding_name, binding_of, constant_name, is_place, location_name, offset_name, offset_of,

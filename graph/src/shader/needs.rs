@@ -1,6 +1,9 @@
-//! How many resources a shader's pass binds, where not every device allows as many.
+//! What a shader in its pass asks of a device, and how many resources the pass binds, where not every device allows as many.
 
-use super::{BindingKind, PASS_SET, ProgramBinding, ShaderInterface, SuppliedKind, SuppliedResource, binding_name};
+use super::{
+    BindingKind, DrawInterface, PASS_SET, ProgramBinding, ProgramSet, ShaderInterface, SuppliedKind, SuppliedResource,
+    binding_name, bindings_of_read_sets, push_needs, set_needs, vertex_needs,
+};
 use crate::device::{Limit, Need, NeedKind};
 use crate::vulkan::Stages;
 
@@ -40,6 +43,27 @@ const COUNTED: [CountedKind; 5] = [
         &[Limit::StageInputAttachments, Limit::SetInputAttachments],
     ),
 ];
+
+/// All that a shader in its pass asks of a device: what it needs itself, for the vertices and push constants that it reads of those that
+/// the draw source brings along (`None`: nothing is bound of it), for the resources that are bound beside the pass's `targets`, and
+/// for what it reads of the program's sets.
+#[must_use]
+pub fn needs_in_pass(
+    shader: &ShaderInterface,
+    brought: Option<&DrawInterface>,
+    sets: &[ProgramSet],
+    targets: usize,
+) -> Vec<Need> {
+    let mut needs = shader.needs.clone();
+    if let Some(brought) = brought {
+        needs.append(&mut vertex_needs(&shader.vertex_inputs, brought));
+        needs.extend(push_needs(brought).filter(|_| !shader.pushed.is_empty()));
+    }
+    let supplied = brought.into_iter().flat_map(|brought| &brought.supplied);
+    needs.append(&mut resource_needs(shader, supplied, bindings_of_read_sets(&shader.program, sets), targets));
+    needs.append(&mut set_needs(&shader.program, sets));
+    needs
+}
 
 /// The resources of a pass that are more than every device allows: of each kind and of all kinds with the pass's `targets`, where each
 /// element of an array counts. All stages together are held to what one may see. Resources that the draw source brings along count

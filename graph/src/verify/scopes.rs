@@ -331,7 +331,8 @@ pub(super) fn stage_word(stage: usize) -> Stages {
 /// Accesses among `accesses` that none of `stages` can make.
 pub(super) fn impossible(stages: Stages, accesses: Accesses) -> Accesses {
     if stages.contains(Stages::ALL_COMMANDS) {
-        return accesses & (Accesses::HOST_READ | Accesses::HOST_WRITE);
+        let of_host = Accesses::HOST_READ | Accesses::HOST_WRITE;
+        return if stages.contains(Stages::HOST) { Accesses::empty() } else { accesses & of_host };
     }
     let any = Accesses::MEMORY_READ | Accesses::MEMORY_WRITE;
     let possible = StageSet::of(stages).iter().fold(any.bits(), |all, stage| all | ACCESSES_OF_STAGE[stage]);
@@ -381,6 +382,18 @@ mod tests {
         assert_eq!(StageSet::of(Stages::COPY).and_later(), StageSet::of(Stages::COPY));
         assert!(StageSet::of(Stages::DRAW_INDIRECT).and_later().contains(COMPUTE_SHADER));
         assert!(!StageSet::of(Stages::ALL_COMMANDS).contains(HOST));
+    }
+
+    #[test]
+    fn the_host_accesses_in_its_own_stage_alone() {
+        let of_host = Accesses::HOST_READ | Accesses::HOST_WRITE;
+        for (stages, found) in [
+            (Stages::ALL_COMMANDS, of_host),
+            (Stages::HOST, Accesses::empty()),
+            (Stages::HOST | Stages::ALL_COMMANDS, Accesses::empty()),
+        ] {
+            assert_eq!(impossible(stages, of_host), found, "{stages:?}");
+        }
     }
 
     #[test]

@@ -280,6 +280,7 @@ fn do_9_mistakes() {
     for (run, what) in [
         (Cadence::Every { count: 0, at: 0 }, "every 0 frames; 2 to 1000000 are possible"),
         (Cadence::Every { count: 3, at: 5 }, "in frame 5 of 3"),
+        (Cadence::Every { count: 1, at: 1 }, "in frame 1 of 1, which has the number 0"),
         (Cadence::WhenDirty("".into()), "without a name"),
     ] {
         frame.passes[0].run = run;
@@ -370,4 +371,97 @@ fn do_9_the_frame_s_number_and_time_stand_alone_and_in_parameters_alone() {
     assert!(sum.contains("it stands alone in `params`"), "{sum}");
     let size = wrong(&map(1, "", "").replace("Fixed(64, 64)", r#"Fixed("frame + 1", 64)"#), &INPUTS);
     assert!(size.contains("E0311") && size.contains("`frame` is another value in each frame"), "{size}");
+}
+
+/// `sky` is drawn once, and `grade` is off: it forwards `sky` to `kept`, an image of this lifetime.
+fn forwarded(lifetime: &str) -> String {
+    format!(
+        r#"Pipeline(version: 1, settings: [(name: "on", value: Bool(default: false))], images: [
+            (name: "sky", format: R8G8B8A8_UNORM, size: Output),
+            (name: "kept", format: R8G8B8A8_UNORM, size: Output, lifetime: {lifetime}),
+            (name: "screen", format: R8G8B8A8_UNORM, size: Output)],
+         passes: [
+            (name: "draw", run: Once, draw: FullScreen("plain"), color: ["sky"]),
+            (name: "grade", when: "on", draw: FullScreen("copy"), sample: {{"source": "sky"}}, color: ["kept"],
+             otherwise: Forward(from: "sky", to: "kept")),
+            (name: "past", custom: "past", reads: [(image: "kept", previous: 1)], side_effect: true),
+            (name: "show", draw: FullScreen("copy"), sample: {{"source": "kept"}}, color: ["screen"])], outputs: ["screen"])"#
+    )
+}
+
+#[test]
+fn do_9_an_image_that_a_pass_which_is_off_forwards_is_copied_in_each_frame() {
+    let plan = planned(&forwarded("History"));
+    let copy = plan.steps.iter().find(|step| matches!(step.work, Work::Copy(_))).expect("the images aren't one");
+    assert_eq!(copy.run, Cadence::Always, "{}", plan.tree());
+    assert_eq!(step(&plan, "draw").run, Cadence::Once);
+    assert!(is_kept(&plan, "sky"), "{}", plan.tree());
+}
+
+#[test]
+fn do_9_a_stand_in_that_clears_runs_as_its_pass_does() {
+    let first = r#"(name: "first", run: Once, when: "n == 2", draw: Objects(Opaque), shader: "lit",
+        color: [(image: "map", clear: (0, 0, 0, 1))], otherwise: Clear(image: "map", value: (0, 0, 0, 1))),
+        (name: "draw", run: Once, draw: Objects(Transparent), shader: "lit", color: [(image: "map", blend: Alpha)]),"#;
+    let text = map(1, "", first);
+    let own = text.find(r#"(name: "draw",  draw"#).expect("the first pass");
+    let end = text.find(r#"(name: "first""#).expect("the next one");
+    let text = [&text[..own], &text[end..]].concat();
+    let plan = planned(&text);
+    let fill = plan.steps.iter().find(|step| matches!(step.work, Work::Fill(_)));
+    let fill = fill.map_or_else(|| &step(&plan, "draw").run, |step| &step.run);
+    assert_eq!(*fill, Cadence::Once, "{}", plan.tree());
+}
+
+#[test]
+fn do_9_bytes_behind_texels_are_filled_when_they_are_copied() {
+    let text = r#"Pipeline(version: 1,
+        images: [(name: "a", format: R8_UNORM, size: Fixed(3, 1), lifetime: Persistent)],
+        buffers: [(name: "b", bytes: 4), (name: "c", bytes: 4)],
+        passes: [(name: "read_back", run: Every(2), copy: (from: "a", to: "b")), (name: "on", copy: (from: "b", to: "c"))],
+        outputs: [(buffer: "c")])"#;
+    let plan = planned(text);
+    let runs: Vec<&Cadence> = plan.steps.iter().map(|step| &step.run).take(2).collect();
+    assert_eq!(runs, [&Cadence::Every { count: 2, at: 0 }; 2], "{}", plan.tree());
+}
+
+#[test]
+fn do_9_a_pass_that_only_clears_what_nobody_reads_is_culled() {
+    // `both` clears `map` and `other` once; nobody reads `map`, so `first` clears it for nothing.
+    let text = r#"Pipeline(version: 1, images: [
+            (name: "map", format: R8G8B8A8_UNORM, size: Output), (name: "other", format: R8G8B8A8_UNORM, size: Output),
+            (name: "screen", format: R8G8B8A8_UNORM, size: Output)],
+         passes: [
+            (name: "first", draw: Objects(Opaque), shader: "lit", color: [(image: "map", clear: (0, 0, 0, 1))]),
+            (name: "both", run: Once, custom: "both", writes: ["map", "other"]),
+            (name: "show", draw: FullScreen("copy"), sample: {"source": "other"}, color: ["screen"])], outputs: ["screen"])"#;
+    let plan = planned(text);
+    let has = |name: &str| plan.steps.iter().any(|step| step.work.passes().iter().any(|pass| *pass.name == *name));
+    assert!(!has("first") && has("show"), "{}", plan.tree());
+}
+
+#[test]
+fn do_9_a_transient_image_of_several_passes_that_run_seldom_is_never_stored() {
+    let plan = planned(FACES);
+    for at in 0..6 {
+        let scope = step(&plan, &format!("face[{at}]")).work.scope().expect("it draws");
+        let depth = scope.attachments.iter().find(|it| it.kind == AttachmentKind::Depth).expect("it has depth");
+        assert_eq!((depth.load, depth.store), (LoadOp::Clear, StoreOp::DontCare), "face {at}: {}", plan.tree());
+    }
+}
+
+#[test]
+fn do_9_a_dump_of_what_stays_is_refused_in_words_of_the_dump() {
+    let dump = |image: &str| [image.to_owned()];
+    let refused = wrong(&map(1, "run: Every(4),", ""), &Inputs { dump: &dump("map"), ..INPUTS });
+    assert!(
+        refused
+            .contains("`map` can't be dumped: `draw` runs every 4 frames, and what is dumped is written in each frame"),
+        "{refused}"
+    );
+    right(&map(1, "run: Every(4),", ""), &Inputs { dump: &dump("screen"), ..INPUTS });
+    right(&map(1, "", ""), &Inputs { dump: &dump("map"), ..INPUTS });
+    let persistent =
+        map(1, "run: Every(4),", "").replace("size: Fixed(64, 64),", "size: Fixed(64, 64), lifetime: Persistent,");
+    compiled(&right(&persistent, &Inputs { dump: &dump("map"), ..INPUTS }));
 }

@@ -1,6 +1,8 @@
 //! What the program records may use any command for what its pass reads and writes: the Plan waits for all of them.
 
 use crate::testing::parts::device;
+use crate::testing::pipelines::{INPUTS, right};
+use crate::testing::plans::compiled;
 use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::MemoryEstimate;
@@ -142,4 +144,17 @@ fn a_custom_pass_that_waits_only_for_what_it_declares_is_refused() {
             assert!(told, "{name}: {said:#?}");
         }
     }
+}
+
+/// The checker takes a barrier whose stages are `HOST` and `ALL_COMMANDS`, with the accesses of the host.
+#[test]
+fn a_custom_pass_without_uses_reads_what_the_host_wrote() {
+    let text = r#"Pipeline(version: 1,
+        images: [(name: "screen", format: R8G8B8A8_UNORM, size: Output)],
+        buffers: [(name: "args", bytes: 256, lifetime: Imported(before: Host)), (name: "b", bytes: 256)],
+        passes: [(name: "sky", draw: FullScreen("plain"), color: ["screen"]),
+                 (name: "m", custom: "build", reads: ["args"], writes: ["b"])],
+        outputs: ["screen", "b"])"#;
+    let plan = compiled(&right(text, &INPUTS));
+    assert_eq!(verify(&plan), []);
 }

@@ -307,3 +307,24 @@ fn colours_that_change_their_locations_are_told() {
     let expected = [vec![("attached as", other, one)], vec![("attached as", one, other)]];
     assert_eq!(told.collect::<Vec<Vec<_>>>(), expected, "{}", found.text());
 }
+
+/// DO-9: in which frames a step runs is a difference, also of what is no pass.
+#[test]
+fn do_9_how_often_a_copy_and_a_fill_run_is_told() {
+    let text = |run: &str| {
+        format!(
+            r#"Pipeline(version: 1, images: [], buffers: [(name: "a", bytes: 4), (name: "b", bytes: 4), (name: "c", bytes: 4)],
+                passes: [(name: "fill", {run} fill: (to: "a", value: 7)), (name: "copy", {run} copy: (from: "a", to: "b")),
+                         (name: "on", copy: (from: "b", to: "c"))],
+                outputs: [(buffer: "c")])"#
+        )
+    };
+    let [a, b] = ["", "run: Every(2),"].map(|run| compiled(&right(&text(run), &INPUTS)));
+    let found = between(&a, &b);
+    let of_transfers = of_kind(&found, Kind::Transfer);
+    let runs = of_transfers.iter().filter(|entry| match &entry.change {
+        Change::Changed { fields } => fields.iter().any(|field| field.name == "runs"),
+        Change::Added { .. } | Change::Removed { .. } => false,
+    });
+    assert_eq!(runs.count(), 2, "{}", found.text());
+}

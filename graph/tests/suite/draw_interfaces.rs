@@ -143,6 +143,14 @@ fn each_mistake_is_told_at_its_place() {
     let compute = "of: [Compute],\n            vertex_stride: ";
     let said = &["compute passes have no vertices", "an entry of its own"];
     wrong(&format!("{compute}0"), &format!("{compute}4"), "27:28", said);
+    let pushed = "of: [Compute],\n            push_constants: [(bytes: 16)],\n            vertex_stride: ";
+    let said = &["compute passes have no push constants", "an entry of its own"];
+    wrong(compute, pushed, "27:29", said);
+    let full_screen = "of: [FullScreen],\n            topology: LineList,\n            vertex_stride: ";
+    let said = &["full-screen passes have no vertices", "give `FullScreen` an entry of its own"];
+    wrong(compute, full_screen, "27:23", said);
+    let full_screen = "of: [FullScreen],\n            vertex_stride: 4";
+    wrong(&format!("{compute}0"), full_screen, "27:28", said);
     wrong("vertex_stride: 20", "vertex_stride: -4", "6:28", &["the stride can't be -4"]);
     wrong("vertex_stride: 20", "vertex_stride: 16", "9:17", &["`tangent` doesn't fit vertices of 16 bytes"]);
     wrong("offset: 12", "offset: 13", "9:17", &["`tangent` doesn't fit vertices of 20 bytes"]);

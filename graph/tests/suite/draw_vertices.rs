@@ -1,11 +1,14 @@
 //! What a draw source tells of its vertices (DO-5): the file says it, mistakes stand at their places, and shaders read what is there.
 
+use crate::testing::pipelines::{INPUTS, right};
+use crate::testing::plans::compiled;
+use crate::testing::table::Table;
 use framewright_graph::base::{self, Sources};
 use framewright_graph::device::{Abilities, Limits};
 use framewright_graph::frame::Draw;
 use framewright_graph::shader::{
-    Attribute, BroughtLocation, DrawInterface, DrawInterfaces, DrawKind, PushConstants, PushedBlock, VertexBuffer,
-    VertexInput, VertexRate, push_needs, vertex_needs,
+    Attribute, BroughtLocation, DrawInterface, DrawInterfaces, DrawKind, PushConstants, PushedBlock, ShaderInterface,
+    ShaderInterfaces, ShaderProblem, Variant, VertexBuffer, VertexInput, VertexRate, push_needs, vertex_needs,
 };
 use framewright_graph::vulkan::{PrimitiveTopology, Stages, VertexFormat};
 
@@ -199,4 +202,40 @@ fn blocks_of_push_constants_lie_within_what_their_stage_is_brought() {
     assert_eq!(push_needs(&grass()), None, "every device has 128");
     let far = DrawInterface { push_constants: vec![PushConstants::new(128, 4)], ..DrawInterface::default() };
     assert!(push_needs(&far).is_some());
+}
+
+/// The table of shaders, with a draw source that brings a direction for four instances at once along.
+struct Shared(Table);
+
+impl ShaderInterfaces for Shared {
+    fn draw_shader(&mut self, name: &str, draw: Draw, variant: &Variant) -> Result<ShaderInterface, ShaderProblem> {
+        self.0.draw_shader(name, draw, variant)
+    }
+
+    fn compute_shader(&mut self, name: &str, variant: &Variant) -> Result<ShaderInterface, ShaderProblem> {
+        self.0.compute_shader(name, variant)
+    }
+
+    fn brought_along(&self, draw: Option<Draw>, name: &str) -> DrawInterface {
+        let mut brought = self.0.brought_along(draw, name);
+        for buffer in &mut brought.vertex_buffers {
+            buffer.rate = VertexRate::Instance { divisor: 4 };
+        }
+        brought
+    }
+}
+
+#[test]
+fn do_5_a_plan_tells_the_feature_for_attributes_that_several_instances_share() {
+    let text = r#"Pipeline(version: 1, images: [(name: "screen", format: R8G8B8A8_UNORM, size: Output)],
+        passes: [(name: "draw", draw: Objects(Opaque), shader: "lit", color: [(image: "screen", clear: (0, 0, 0, 1))])],
+        outputs: ["screen"])"#;
+    let plan = compiled(&right(text, &INPUTS));
+    let has = |shaders: &mut dyn ShaderInterfaces| {
+        let used = plan.features(shaders).expect("its shaders are right");
+        used.into_iter().find(|it| it.name == "vertexAttributeInstanceRateDivisor").map(|it| it.by)
+    };
+    assert_eq!(has(&mut Table), None);
+    let by = has(&mut Shared(Table)).expect("the draw source shares them");
+    assert_eq!(by, "pass `draw`: a vertex attribute that several instances share");
 }

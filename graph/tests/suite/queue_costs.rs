@@ -4,7 +4,7 @@ use crate::queues::{Builder, device, note, shown, transferred};
 use crate::testing::plans::planned;
 use framewright_graph::compile::{Compiler, Options, Order, compile};
 use framewright_graph::device::{MemoryEstimate, Profile, Queues};
-use framewright_graph::frame::{BufferIndex, Frame, ImageIndex, Lifetime, Pass, Resource, Work};
+use framewright_graph::frame::{BufferIndex, Cadence, Frame, ImageIndex, Lifetime, Pass, Resource, Work};
 use framewright_graph::plan::{Plan, Queue};
 use framewright_graph::vulkan::{Accesses, FillValue, Layout, Sharing, Stages, State};
 use proptest::prelude::*;
@@ -88,6 +88,18 @@ fn nothing_moves_beside_graphics_work_that_is_done_sooner_than_the_waits() {
     let plan = plan(&cleared(8 * MIB, 4 * MIB));
     assert_eq!(shown(&plan), ["clear", "shadows", "lit"]);
     assert!(note(&plan, "clear").contains("at most 4.0 MiB of work beside `shadows`"), "{}", note(&plan, "clear"));
+}
+
+#[test]
+fn do_9_what_runs_in_some_frames_neither_moves_nor_has_anything_beside_it() {
+    let mut frame = cleared(8 * MIB, 16 * MIB);
+    frame.passes[0].run = Cadence::Every { count: 6, at: 0 };
+    let rare = plan(&frame);
+    assert_eq!(shown(&rare), ["clear", "shadows", "lit"]);
+    assert_eq!(note(&rare, "clear"), "stays on the graphics queue: it doesn't run in every frame");
+    let mut frame = cleared(8 * MIB, 16 * MIB);
+    frame.passes[1].run = Cadence::Once;
+    assert_eq!(shown(&plan(&frame)), ["clear", "shadows", "lit"]);
 }
 
 /// `length` dispatches, each of which samples the image of 1 MiB that the one before it wrote.

@@ -75,7 +75,7 @@ impl Adapter<'_> {
             } else {
                 self.replace(to, "1 sample", why.clone(), wanted)
             };
-            return self.push_transfer(OpKind::Copy(why), source, target, Use::ALL);
+            return self.push_transfer(OpKind::ForwardCopy(why), source, target, Use::ALL);
         }
         self.forward_by_draw(number, pass, source, to, why);
     }

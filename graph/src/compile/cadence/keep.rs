@@ -102,7 +102,8 @@ impl Walk<'_> {
             | OpKind::Pass(pass)
             | OpKind::DepthOnly { pass, .. }
             | OpKind::FillAgain { pass, .. } => of_pass(*pass),
-            OpKind::ForwardDraw { .. } => Cadence::Always,
+            // Its target may be another image in the next frame, as that of a history is.
+            OpKind::ForwardDraw { .. } | OpKind::ForwardCopy(_) => Cadence::Always,
             OpKind::ResolveDraw { .. } | OpKind::Resolve { .. } | OpKind::Copy(_) => self.of_source(op),
         }
     }

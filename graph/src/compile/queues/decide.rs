@@ -50,7 +50,10 @@ pub(super) fn decide(
     let mut why: Vec<Option<QueueReason>> =
         bound.iter().map(|bound| bound.err().map(QueueReason::GraphicsOnly)).collect();
     // Where all steps are drawn, there is nothing to weigh.
-    let work = || Work::new(adapted, steps, |step| bound[step as usize].is_err(), device.queues.wait_bytes);
+    // Steps that don't run in every frame have nothing beside them in the others.
+    let runs_always = |step: &Step| step.ops().iter().all(|op| adapted.cadence(*op).is_always());
+    let beside = |step: u32| bound[step as usize].is_err() && runs_always(&steps[step as usize]);
+    let work = || Work::new(adapted, steps, beside, device.queues.wait_bytes);
     let work = bound.iter().any(Result::is_ok).then(work);
     for round in 0.. {
         let Some(work) = work.as_ref().filter(|_| queues.iter().any(|queue| *queue != Queue::Graphics)) else { break };

@@ -28,6 +28,8 @@ pub(super) enum GraphicsOnly {
     DepthOrMultisampled,
     /// It uses an image or buffer that is imported or leaves the frame.
     Outside,
+    /// It doesn't run in every frame, so it saves nothing in most.
+    Rare,
     /// The device has no other queue that can run it.
     NoQueue,
 }
@@ -42,6 +44,7 @@ impl GraphicsOnly {
             GraphicsOnly::Effect => Some("its effect comes in order with others that no image or buffer shows"),
             GraphicsOnly::DepthOrMultisampled => Some("copies and fills of depth, stencil or several samples need it"),
             GraphicsOnly::Outside => Some("what it touches is handed in or leaves the frame"),
+            GraphicsOnly::Rare => Some("it doesn't run in every frame"),
             GraphicsOnly::NoQueue => Some("no other queue of the device can do it"),
         }
     }
@@ -88,6 +91,9 @@ impl EligibleQueues<'_> {
         }
         if uses.iter().any(|used| self.is_outside(used)) {
             return Err(GraphicsOnly::Outside);
+        }
+        if !self.adapted.cadence(*op).is_always() {
+            return Err(GraphicsOnly::Rare);
         }
         let images = || uses.iter().filter(|used| self.adapted.resources[used.resource as usize].image().is_some());
         // Poison fills images wherever they are used first.

@@ -43,6 +43,7 @@ fn zero(resources: &Resources<'_>, copy: &Pass, resource: Resource) -> Pass {
     Pass {
         span,
         view: copy.view,
+        run: copy.run.clone(),
         inserted: Some(why.into()),
         transfers: vec![transfer],
         ..Pass::new(&format!("{} (padding)", copy.name), Work::Fill { value: FillValue::Bits([0; 4]) })

@@ -9,7 +9,7 @@ use crate::expand::shader::{
     supplied_resources, variant,
 };
 use crate::frame::check;
-use crate::frame::{BufferRole, ColorTarget, DeclaredUse, DepthTarget, Pass, Resource, TransferUse, Work};
+use crate::frame::{BufferRole, Cadence, ColorTarget, DeclaredUse, DepthTarget, Pass, Resource, TransferUse, Work};
 use crate::language::{self, StandIn};
 use crate::shader::ShaderInterface;
 use crate::vulkan::{FillValue, Stages, Subresources};
@@ -189,9 +189,11 @@ pub(in crate::expand) fn stand_ins(
     errors: &mut Vec<Diagnostic>,
 ) -> Vec<Pass> {
     let stand_in = |(number, stand_in): (usize, &StandIn)| {
-        let (work, transfer) = match *stand_in {
+        let (run, work, transfer) = match *stand_in {
+            // What it forwards may have changed in any frame.
             StandIn::Forward(language::Forward { from, to }) => {
-                (Work::Forward { from: from.index, to: to.index, because: because.to_owned() }, None)
+                let work = Work::Forward { from: from.index, to: to.index, because: because.to_owned() };
+                (Cadence::Always, work, None)
             }
             StandIn::Clear { to, value } => {
                 let part = language::Part::Image(language::ImagePart::whole(to));
@@ -200,13 +202,13 @@ pub(in crate::expand) fn stand_ins(
                 let filled = filled.unwrap_or(FillValue::Bits([0; 4]));
                 let (resource, range) = (Resource::Image(to.index), Subresources::WHOLE);
                 let transfer = TransferUse { resource, range, frames_ago: 0, span: to.span, write: true, keeps: false };
-                (Work::Fill { value: filled }, Some(transfer))
+                (pass.run.clone().unwrap_or_default(), Work::Fill { value: filled }, Some(transfer))
             }
         };
         let name = &pass.name.text;
         let name = if number == 0 { name.to_string() } else { format!("{name} (otherwise {})", number + 1) };
         let (span, view) = (pass.name.span, pass.view);
-        Pass { span, view, transfers: transfer.into_iter().collect(), ..Pass::new(&name, work) }
+        Pass { span, view, run, transfers: transfer.into_iter().collect(), ..Pass::new(&name, work) }
     };
     pass.otherwise.iter().enumerate().map(stand_in).collect()
 }

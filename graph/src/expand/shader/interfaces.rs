@@ -10,7 +10,8 @@ use crate::shader::{
     ShaderProblem, UnbindableResource, Variant,
 };
 use crate::vulkan::{Dimension, ImageShape};
-use std::collections::HashSet;
+use std::cell::RefCell;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 /// The most bindings that are searched one by one; among more, a name is looked up.
@@ -26,7 +27,7 @@ pub(in crate::expand) struct CheckedShaders<'s> {
     seen: HashSet<(Arc<str>, Option<Draw>)>,
     /// What the draw source brings along for each draw that was asked about (`None`: for compute shaders), and of custom passes for each
     /// name.
-    brought: Vec<(Asked, Arc<DrawInterface>)>,
+    brought: RefCell<HashMap<Asked, Arc<DrawInterface>>>,
     /// The sets that the program binds itself.
     program_sets: Vec<ProgramSet>,
     /// Shaders that have no interface, and why: one may draw several things.
@@ -45,7 +46,7 @@ impl<'s> CheckedShaders<'s> {
             shaders,
             sources,
             seen: HashSet::new(),
-            brought: Vec::new(),
+            brought: RefCell::default(),
             reported: Vec::new(),
             nowhere: "".into(),
             remarks: Vec::new(),
@@ -136,15 +137,18 @@ impl<'s> CheckedShaders<'s> {
     }
 
     /// The interface that the draw source provides to a pass with a shader.
-    pub(in crate::expand) fn brought_along(&mut self, pass: &language::Pass) -> Option<Arc<DrawInterface>> {
+    pub(in crate::expand) fn brought_along(&self, pass: &language::Pass) -> Option<Arc<DrawInterface>> {
         let (name, draw) = named(pass)?;
         let of = (draw, draw.is_some_and(Draw::is_custom).then(|| name.text.clone()));
-        if let Some((_, known)) = self.brought.iter().find(|(known, _)| *known == of) {
-            return Some(known.clone());
-        }
-        let brought = Arc::new(self.shaders.brought_along(draw, &name.text));
-        self.brought.push((of, brought.clone()));
-        Some(brought)
+        let mut known = self.brought.borrow_mut();
+        let brought = known.entry(of).or_insert_with(|| Arc::new(self.shaders.brought_along(draw, &name.text)));
+        Some(brought.clone())
+    }
+
+    /// Whether the draw source brings attributes by instance along for what a pass draws.
+    pub(in crate::expand) fn draws_by_instance(&self, pass: &language::Pass) -> bool {
+        let brought = named(pass).and_then(|(_, draw)| draw).and_then(|_| self.brought_along(pass));
+        brought.is_some_and(|it| it.vertex_buffers.iter().any(|buffer| buffer.rate.is_by_instance()))
     }
 
     /// As [`ShaderInterfaces::program_sets`].
@@ -156,13 +160,6 @@ impl<'s> CheckedShaders<'s> {
     pub(super) fn custom_passes(&self) -> Option<Vec<Arc<str>>> {
         self.shaders.custom_passes()
     }
-}
-
-/// Whether the draw source brings attributes by instance along for what a pass draws.
-pub(in crate::expand) fn draws_by_instance(shaders: &dyn ShaderInterfaces, pass: &language::Pass) -> bool {
-    let Some((name, draw @ Some(_))) = named(pass) else { return false };
-    let brought = shaders.brought_along(draw, &name.text);
-    brought.vertex_buffers.iter().any(|buffer| buffer.rate.is_by_instance())
 }
 
 /// The shader that a pass names, and the draw; a draw of `None`: it is a compute shader.

@@ -22,4 +22,4 @@ pub(super) mod storage;
 pub(super) mod supplied_resources;
 pub(super) mod variant;
 
-pub(super) use interfaces::{CheckedShaders, draws_by_instance, missing};
+pub(super) use interfaces::{CheckedShaders, missing};

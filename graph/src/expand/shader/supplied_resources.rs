@@ -9,8 +9,7 @@ use crate::language;
 use crate::ron::Name;
 use crate::shader::{
     AttributeMisfit, Binding, DrawInterface, LayoutFault, PASS_SET, ProgramResource, ProgramSet, ShaderInterface,
-    SuppliedResource, UnbindableResource, VertexLayout, bindings_of_read_sets, push_needs, resource_needs, set_needs,
-    vertex_needs,
+    SuppliedResource, UnbindableResource, VertexLayout, needs_in_pass,
 };
 use std::sync::Arc;
 
@@ -42,7 +41,7 @@ pub(in crate::expand) fn check(
 
 /// What the shader asks of the device, and the resources that its pass and the draw source bind for it.
 pub(in crate::expand) fn needs(
-    shaders: &mut CheckedShaders<'_>,
+    shaders: &CheckedShaders<'_>,
     pass: &language::Pass,
     interface: &ShaderInterface,
 ) -> Vec<Need> {
@@ -50,17 +49,7 @@ pub(in crate::expand) fn needs(
     let dispatched = pass.work.is_dispatch();
     let binds = !dispatched || interface.bindings.iter().any(|binding| binding.set != PASS_SET);
     let brought = binds.then(|| shaders.brought_along(pass)).flatten();
-    let supplied = brought.iter().flat_map(|brought| &brought.supplied);
-    let mut needs = interface.needs.clone();
-    if let Some(brought) = &brought {
-        needs.append(&mut vertex_needs(&interface.vertex_inputs, brought));
-        needs.extend(push_needs(brought).filter(|_| !interface.pushed.is_empty()));
-    }
-    let sets = shaders.program_sets();
-    let program = bindings_of_read_sets(&interface.program, sets);
-    needs.append(&mut resource_needs(interface, supplied, program, pass.color.len()));
-    needs.append(&mut set_needs(&interface.program, sets));
-    needs
+    needs_in_pass(interface, brought.as_deref(), shaders.program_sets(), pass.color.len())
 }
 
 /// A pass that brings its own vertices names their buffer, if and only if its shader declares attributes. The buffer holds as

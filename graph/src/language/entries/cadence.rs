@@ -1,17 +1,19 @@
 //! `run`: in which frames a pass runs.
 
-use super::values::MANY;
 use crate::base::{Code, Diagnostic};
 use crate::fields;
 use crate::frame::Cadence;
 use crate::language::scope::{Context, FieldValue, combined};
 use crate::ron::{FieldTable, Form, Leaf, PlainForm, Word, WordContents, Words};
 
+/// The form of `count`.
+const COUNT: Form = Form::Whole(1, Cadence::LONGEST as i64);
+
 fields! {
     /// The fields of `Every`: how often a pass runs.
     struct EveryFields<'src> {
-        /// How many frames lie between two runs.
-        count: Leaf<'src> => MANY,
+        /// How many frames it is from one run to the next.
+        count: Leaf<'src> => COUNT,
         /// In which of them it runs, from 0; 0 if left out.
         at: Option<Leaf<'src>> => Form::Whole(0, Cadence::LONGEST as i64 - 1),
     }
@@ -29,7 +31,7 @@ static CADENCES: Words = Words {
         Word::alone("Once", "In the first frame."),
         Word::new(
             "Every",
-            &[WordContents::Values(&[MANY]), WordContents::Fields(EveryFields::<'static>::table)],
+            &[WordContents::Values(&[COUNT]), WordContents::Fields(EveryFields::<'static>::table)],
             &["Every(4)", "Every(count: 6, at: \"face\")"],
             "In the first frame, and in each whose number, divided by `count`, leaves `at`.",
         ),
