@@ -67,8 +67,7 @@ impl DrawInterface {
 }
 
 /// What reading a shader's attributes out of the buffers of a draw source asks of the device. Attributes that don't fit ask for nothing.
-#[must_use]
-pub fn vertex_needs(inputs: &[VertexInput], brought: &DrawInterface) -> Vec<Need> {
+pub(super) fn vertex_needs(inputs: &[VertexInput], brought: &DrawInterface) -> Vec<Need> {
     let mut needs = Vec::new();
     let mut need = |kind| {
         let need = Need { kind, place: "".into() };
@@ -110,8 +109,7 @@ pub fn vertex_needs(inputs: &[VertexInput], brought: &DrawInterface) -> Vec<Need
 }
 
 /// What the push constants of a draw source ask of the device.
-#[must_use]
-pub fn push_needs(brought: &DrawInterface) -> Option<Need> {
+pub(super) fn push_needs(brought: &DrawInterface) -> Option<Need> {
     let value = u64::from(brought.pushed_bytes());
     let what = || format!("{value} bytes of push constants are brought along").into();
     let limit = Limit::PushConstantBytes;
