@@ -8,12 +8,12 @@ pub(crate) struct Ownership {
     /// Who gets it after each frame: `None`: the device keeps it.
     pub(super) owner: Option<OutsideOwner>,
     /// Those that frames have used.
-    held: Vec<Held>,
+    held: Vec<HolderRecord>,
 }
 
 /// Who has one of them after a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Held {
+struct HolderRecord {
     /// Vulkan's handle.
     raw: u64,
     /// `None`: the device.
@@ -32,7 +32,7 @@ impl Ownership {
 
     /// Notes that a frame took it, if it was outside, and gave it to the owner.
     pub(super) fn drawn(&mut self, raw: u64, frame: u64) {
-        let held = Held { raw, holder: self.owner, frame, before: self.known(raw) };
+        let held = HolderRecord { raw, holder: self.owner, frame, before: self.known(raw) };
         match self.held.iter_mut().find(|it| it.raw == raw) {
             Some(known) => *known = held,
             None => self.held.push(held),
