@@ -4,7 +4,7 @@ use framewright::vulkan::ash::vk;
 use framewright::{CustomRecorder, Device};
 use std::error::Error;
 
-/// `sparks.comp`, compiled. Its first words make a whole number of 32-bit words.
+/// `sparks.comp`, compiled: a whole number of 32-bit words.
 const SPIRV: &[u8] = include_bytes!("sparks.spv");
 
 /// The pipeline, and a descriptor set for each frame that may be on its way.
@@ -29,7 +29,9 @@ impl Sparks {
         let sizes = [vk::DescriptorPoolSize::default().ty(kind).descriptor_count(frames as u32)];
         let pool = vk::DescriptorPoolCreateInfo::default().max_sets(frames as u32).pool_sizes(&sizes);
         let constants = [vk::PushConstantRange::default().stage_flags(vk::ShaderStageFlags::COMPUTE).size(4)];
-        let words: Vec<u32> = SPIRV.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect();
+        let (words, rest) = SPIRV.as_chunks();
+        assert!(rest.is_empty(), "SPIR-V is a whole number of words");
+        let words: Vec<u32> = words.iter().map(|word| u32::from_le_bytes(*word)).collect();
         // SAFETY: the device lives, all that is pointed to outlives the calls, and the SPIR-V comes from a compiler.
         unsafe {
             let sets_layout = raw.create_descriptor_set_layout(&sets_layout, None)?;

@@ -279,9 +279,9 @@ typedef struct {
 // feature; and the first that uses it, in words. Both live until it returns.
 typedef void (*FramewrightFeature)(void *context, const char *name, const char *used_by);
 
-// An image of the program's that a frame uses.
+// An image or buffer of the program's that a frame uses.
 typedef struct {
-    // The name of the external image.
+    // The name of the external image or buffer.
     const char *name;
     // The number of the one to use among those that were imported, from 0.
     size_t image;
@@ -301,7 +301,8 @@ typedef struct {
 typedef struct {
     // sizeof(FramewrightSubmission).
     size_t struct_size;
-    // Images of the program's, for external images of which several were imported. One that isn't listed is that of the frame before.
+    // Images and buffers of the program's, for external ones of which several were imported. An image that isn't listed is that of the
+    // frame before; a buffer is the one whose turn it is.
     const FramewrightChoice *images;
     // How many.
     size_t image_count;
@@ -374,6 +375,7 @@ FramewrightStatus framewright_device_findings(const FramewrightDevice *device,
 
 // Tells each image of the library's that was destroyed since the last call; the first call begins to look. A program that keeps views of
 // images that it was told, as by `framewright_pass_image`, destroys those views then: another image may have the same handle later.
+// It asks in the function that records the pass, before it looks up a view.
 FramewrightStatus framewright_device_dead_images(const FramewrightDevice *device,
                                                  FramewrightDeadImage tell,
                                                  void *context);
@@ -497,18 +499,21 @@ FramewrightStatus framewright_renderer_prepare(FramewrightRenderer *renderer,
 
 // Says that what passes with `run: WhenDirty("name")` write is out of date: they run in the next frame. A name that no pass of the Plan
 // waits for is `FRAMEWRIGHT_STATUS_MISUSE`. Where anything changed, it is planned first.
-FramewrightStatus framewright_renderer_set_dirty(FramewrightRenderer *renderer, const char *name);
+FramewrightStatus framewright_renderer_set_dirty(FramewrightRenderer *renderer,
+                                                 const char *name);
 
 // Has all passes run in the next frame, as in the first one, also those that run once.
 FramewrightStatus framewright_renderer_run_all(FramewrightRenderer *renderer);
 
 // Gives the next frame a number, by which passes go that run every few frames. Frames are counted on from there; without this call they are
 // counted from 0. Where anything changed, it is planned first.
-FramewrightStatus framewright_renderer_set_frame_number(FramewrightRenderer *renderer, uint64_t number);
+FramewrightStatus framewright_renderer_set_frame_number(FramewrightRenderer *renderer,
+                                                        uint64_t number);
 
 // Sets the time of frames from the next one on, in seconds: `time` in parameters of passes. Without this call it is a sixtieth of the frame's
 // number. Where anything changed, it is planned first.
-FramewrightStatus framewright_renderer_set_time(FramewrightRenderer *renderer, double seconds);
+FramewrightStatus framewright_renderer_set_time(FramewrightRenderer *renderer,
+                                                double seconds);
 
 // Draws a frame and waits until the device is done. `frame` is told its number, from 0, unless it is NULL.
 FramewrightStatus framewright_renderer_frame(FramewrightRenderer *renderer, uint64_t *frame);

@@ -66,17 +66,21 @@ pub enum Error {
         /// All that it was created without.
         missing: Vec<String>,
     },
-    /// The device was made without features that a Plan uses.
+    /// The device was made without features that a Plan uses, or has none of them.
     #[error(
-        "{} was created without what the Plan uses: {}; switch it on where the device is created, or choose another device",
+        "{} {} what the Plan uses: {}; {}choose another device",
         escape(device),
-        uses(missing)
+        if *adopted { "was created without" } else { "lacks" },
+        uses(missing),
+        if *adopted { "switch it on where the device is created, or " } else { "" }
     )]
     WithoutFeatures {
         /// The device.
         device: String,
         /// The features, each with what uses it.
         missing: Vec<UsedFeature>,
+        /// Whether the program made the device itself.
+        adopted: bool,
     },
     /// Validation was asked for and there is no validation layer.
     #[error("no layer VK_LAYER_KHRONOS_validation{}; mend it with: {INSTALL}{}", looked(layer_path), disabled())]

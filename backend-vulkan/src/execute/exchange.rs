@@ -7,7 +7,7 @@ use crate::commands::{
 };
 use crate::memory::{Image, RawBuffer};
 use crate::prepare::{buffer_descriptor, descriptor, initial_queue};
-use ash::vk;
+use ash::vk::{self, Handle};
 use framewright_graph::plan::{BufferId, ImageId, Queue, Resource, Role};
 use framewright_graph::vulkan::{Aspects, Layout, State, Usage};
 
@@ -134,7 +134,8 @@ impl Executor {
         write_image(&self.gpu, queue, image, (plane, mip), state, &turned)
     }
 
-    /// Sets the buffer `name`, which outlives the frame, for the next frame to find. Frames in flight are waited for.
+    /// Sets the buffer `name`, which outlives the frame, for the next frame to find: of [buffers in turn](Executor::import_buffers) the one
+    /// whose turn it is. Frames in flight are waited for.
     ///
     /// # Errors
     /// [`Error::BadResource`] if there is no such buffer or it has another number of bytes; [`Error::OutOfMemory`],
@@ -143,6 +144,16 @@ impl Executor {
         let id = self.buffer_named(name)?;
         self.frames.wait_for_all()?;
         self.ready()?;
+        // Reading goes on with the one that the last frame used.
+        let of_last = self.prepared.physical.choice(Resource::Buffer(id));
+        self.take_turn(id);
+        let written = self.write_next(id, name, bytes);
+        self.prepared.physical.choose(Resource::Buffer(id), of_last);
+        written
+    }
+
+    /// Sets the buffer that stands for this one as they are chosen now.
+    fn write_next(&self, id: BufferId, name: &str, bytes: &[u8]) -> Result<(), Error> {
         let (state, queue) = self.found(Resource::Buffer(id), name)?;
         let buffer = self.prepared.physical.buffer(id, self.frames.next());
         if bytes.len() as u64 != buffer.bytes {
@@ -189,7 +200,9 @@ impl Executor {
         // SAFETY: the caller's promise.
         let images: Vec<_> = images.iter().map(|raw| unsafe { Image::foreign(&self.gpu, &descriptor, *raw) }).collect();
         self.prepared.forget();
+        let now = images.iter().map(|image| image.raw.as_raw()).collect();
         self.prepared.physical.replace_images(id, images);
+        self.note_imported(Resource::Image(id), now);
         Ok(())
     }
 
@@ -232,7 +245,15 @@ impl Executor {
         self.prepared.physical.replace_buffers(id, foreign);
         self.in_turn.retain(|(of, _)| *of != id);
         self.in_turn.push((id, buffers.len()));
+        self.note_imported(Resource::Buffer(id), buffers.iter().map(|raw| raw.as_raw()).collect());
         Ok(())
+    }
+
+    /// Notes that the program imported these handles for an image or buffer.
+    fn note_imported(&mut self, resource: Resource, now: Vec<u64>) {
+        if let Some(import) = self.imports.iter_mut().find(|it| it.resource == resource) {
+            import.ownership.imported(|raw| now.contains(&raw));
+        }
     }
 
     /// Vulkan's image that stood for the image `name` in the last frame, for commands of the program's own; `None` if there
@@ -278,10 +299,11 @@ impl Executor {
     fn left(&self, resource: Resource) -> Result<(u64, State, Queue), Error> {
         let (name, role) = (self.plan.resource_name(resource), self.plan.role(resource));
         let bad = |what: &str| Error::BadResource { what: format!("`{name}` can't be read: {what}") };
-        if self.is_outside(resource) {
+        let drawn = self.frames.next().checked_sub(1);
+        if self.is_outside(resource, drawn.unwrap_or(0)) {
             return Err(bad("it was given back to its outside owner; what is read back with a frame is kept"));
         }
-        let frame = self.frames.next().checked_sub(1).ok_or_else(|| bad("no frame was drawn yet"))?;
+        let frame = drawn.ok_or_else(|| bad("no frame was drawn yet"))?;
         match role {
             Role::Transient(_) => Err(bad("it is transient")),
             Role::Persistent { after, .. } | Role::External { after, .. } => {
@@ -293,7 +315,7 @@ impl Executor {
     /// In what state the next frame finds it, and on which queue.
     fn found(&self, resource: Resource, name: &str) -> Result<(State, Queue), Error> {
         let bad = |what: &str| Error::BadResource { what: format!("`{name}` can't be written: {what}") };
-        if self.is_outside(resource) {
+        if self.is_outside(resource, self.frames.next()) {
             return Err(bad("its outside owner has it"));
         }
         let role = self.plan.role(resource);

@@ -7,6 +7,7 @@ use super::import::Import;
 use super::initial_contents::initialise;
 use super::options::ExecutorOptions;
 use super::output_readback::OutputReadback;
+use super::ownership::Ownership;
 use super::submission::{SemaphorePoint, Submission};
 use crate::base::Error;
 use crate::gpu::{Device, Gpu, PipelineHold, ScopeFormats};
@@ -43,6 +44,8 @@ pub struct Executor {
     pub(super) in_turn: Vec<(BufferId, usize)>,
     /// Images and buffers of the program's that the executors before this one had, and that this one wasn't given yet.
     pub(super) missing: Vec<String>,
+    /// Who has images and buffers of the program's that executors before this one had, and that this Plan doesn't know, by name.
+    pub(super) elsewhere: Vec<(String, Ownership)>,
     /// Dropped after the frames and all that they use: it may destroy pipelines.
     _pipelines: PipelineHold,
     /// Texels from files, until they are uploaded.
@@ -122,6 +125,7 @@ impl Executor {
             owners: Vec::new(),
             in_turn: Vec::new(),
             missing: Vec::new(),
+            elsewhere: Vec::new(),
             _pipelines: pipelines,
             plan: plan.clone(),
             first_frame: 0,
@@ -154,7 +158,7 @@ impl Executor {
         let number = self.next_frame(&[])?;
         let (frames, frame, prepared, extras) = self.parts(number);
         frames.submit(&frame, prepared, &mut GuardedSource(source), &extras, &Submission::default())?;
-        self.runs.recorded();
+        self.drawn(number);
         Ok(self.first_frame + number)
     }
 
@@ -175,7 +179,7 @@ impl Executor {
         let number = self.next_frame(among.images)?;
         let (frames, frame, prepared, extras) = self.parts(number);
         frames.submit(&frame, prepared, &mut GuardedSource(source), &extras, among)?;
-        self.runs.recorded();
+        self.drawn(number);
         Ok(self.first_frame + number)
     }
 
@@ -206,7 +210,7 @@ impl Executor {
         let number = self.next_frame(images)?;
         let (frames, frame, prepared, extras) = self.parts(number);
         frames.record_into((commands, done), &frame, prepared, &mut GuardedSource(source), &extras)?;
-        self.runs.recorded();
+        self.drawn(number);
         Ok(self.first_frame + number)
     }
 
@@ -226,6 +230,7 @@ impl Executor {
         if let Some(own) = frame.checked_sub(self.first_frame) {
             self.frames.discard(own);
             self.runs.run_all();
+            self.imports.iter_mut().for_each(|it| it.ownership.discard(frame));
         }
     }
 

@@ -2,10 +2,11 @@
 //! on. For those that the executor made itself, it does so: before each frame, from the state that the last frame left.
 
 use super::outside_owner::OutsideOwner;
+use super::ownership::Ownership;
 use crate::base::convert;
 use crate::commands::{barriers, memory_change, state_change};
 use crate::prepare::{Frame, PhysicalResources, ResourceUses};
-use ash::vk;
+use ash::vk::{self, Handle};
 use framewright_graph::plan::{Plan, Resource, Role, StepId, Wait};
 use framewright_graph::vulkan::{Layout, Sharing, Stages, State, Subresources};
 
@@ -19,8 +20,8 @@ pub(crate) struct Import {
     pub(crate) first: StepId,
     /// The last step that touches it.
     pub(crate) last: StepId,
-    /// Who has it between frames, if it is somebody outside of the device.
-    pub(super) owner: Option<OutsideOwner>,
+    /// Who has it between frames.
+    pub(super) ownership: Ownership,
     /// Where another queue than the first one's used it last, in the frame before: what is to be waited for.
     pub(crate) wait: Option<Wait>,
 }
@@ -38,7 +39,8 @@ impl Import {
             let other = queue(span.first) != queue(span.last);
             let wait = other.then_some(Wait { step: span.last, frames_ago: 1, stages });
             let (before, after) = (*before, *after);
-            Some(Import { resource, before, after, first: span.first, last: span.last, owner: None, wait })
+            let (first, last, ownership) = (span.first, span.last, Ownership::default());
+            Some(Import { resource, before, after, first, last, ownership, wait })
         };
         images.chain(buffers).filter_map(import).collect()
     }
@@ -48,6 +50,22 @@ impl Import {
         match self.resource {
             Resource::Image(image) => !physical.image(image, 0).is_foreign(),
             Resource::Buffer(buffer) => !physical.buffer(buffer, 0).is_foreign(),
+        }
+    }
+
+    /// Who outside of the device has what stands for it in a frame.
+    pub(super) fn holder(&self, physical: &PhysicalResources, frame: u64) -> Option<OutsideOwner> {
+        if self.is_own(physical) {
+            return None;
+        }
+        self.ownership.holder(raw(physical, self.resource, frame))
+    }
+
+    /// Notes that a frame, of this number among the executor's own, is on its way. The program was told the number `told`.
+    pub(super) fn drawn(&mut self, physical: &PhysicalResources, frame: u64, told: u64) {
+        let is_given = matches!(self.resource, Resource::Buffer(_)) || self.after.layout != Layout::Undefined;
+        if is_given && !self.is_own(physical) {
+            self.ownership.drawn(raw(physical, self.resource, frame), told);
         }
     }
 
@@ -96,12 +114,16 @@ impl Import {
     }
 
     fn change_owner(&self, frame: &Frame<'_>, commands: vk::CommandBuffer, way: Way) {
-        let Some(owner) = self.owner.filter(|_| !self.is_own(frame.physical)) else { return };
+        let outside = match way {
+            Way::Take => self.holder(frame.physical, frame.number),
+            Way::Give => self.ownership.owner.filter(|_| !self.is_own(frame.physical)),
+        };
+        let Some(outside) = outside else { return };
         let (state, step) = match way {
             Way::Take => (self.before, self.first),
             Way::Give => (self.after, self.last),
         };
-        let (own, outside) = (self.own_family(frame, step), owner.family());
+        let (own, outside) = (self.own_family(frame, step), outside.family());
         let (from, to) = match way {
             Way::Take => (outside, own),
             Way::Give => (own, outside),
@@ -153,6 +175,14 @@ impl Import {
             true => vk::QUEUE_FAMILY_IGNORED,
             false => families.family(frame.plan.steps[step.0 as usize].queue).index,
         }
+    }
+}
+
+/// Vulkan's handle of what stands for it in a frame.
+fn raw(physical: &PhysicalResources, resource: Resource, frame: u64) -> u64 {
+    match resource {
+        Resource::Image(id) => physical.image(id, frame).raw.as_raw(),
+        Resource::Buffer(id) => physical.buffer(id, frame).raw.as_raw(),
     }
 }
 

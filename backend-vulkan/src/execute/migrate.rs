@@ -2,6 +2,8 @@
 //! begin anew, in `initial_contents.rs`.
 
 use super::executor::Executor;
+use super::import::Import;
+use super::ownership::Ownership;
 use crate::base::Error;
 use crate::commands::{barriers, memory_change, state_change};
 use crate::prepare::{cycle, initial_queue};
@@ -24,7 +26,8 @@ impl Executor {
     /// Lets what persists go on from `before`, which executed another Plan on the same device and ends here: the same
     /// pipeline at another size or with other settings. What both Plans know by the same name and in the same form keeps
     /// its contents, history as a whole; everything else begins with its initial value. Frames are counted on. Returns the names of
-    /// what went on. What the program imported into `before` is to be imported again, or no frame is drawn.
+    /// what went on. What the program imported into `before` is to be imported again, or no frame is drawn. Its
+    /// [outside owners](Executor::set_owner) stay.
     ///
     /// # Errors
     /// [`Error::BadResource`] if this executor has begun already, or is of another device; [`Error::DeviceLost`],
@@ -40,6 +43,7 @@ impl Executor {
         before.frames.wait_for_all()?;
         self.first_frame = before.frames();
         self.missing = before.imported();
+        self.take_owners(&mut before);
         self.sets.take_over(&before.sets);
         self.runs.go_on(&before.runs);
         if !before.initialised {
@@ -79,6 +83,22 @@ impl Executor {
         let names = imported.map(|it| self.plan.resource_name(it.resource));
         let names = names.filter(|name| self.owners.iter().all(|(shown, _)| shown != name));
         names.map(str::to_owned).chain(self.missing.iter().cloned()).collect()
+    }
+
+    /// Has the same outside owners as `before`, by name, but for those that the program told this one. Names that this Plan doesn't know are
+    /// kept for the executor after this one.
+    fn take_owners(&mut self, before: &mut Executor) {
+        let names = |it: &Import| before.plan.resource_name(it.resource).to_owned();
+        let known = before.imports.iter().map(|it| (names(it), it.ownership.clone()));
+        for (name, ownership) in known.chain(std::mem::take(&mut before.elsewhere)) {
+            let resource = self.external(&name);
+            match self.imports.iter_mut().find(|it| Some(it.resource) == resource) {
+                Some(import) if import.ownership == Ownership::default() => import.ownership = ownership,
+                Some(_) => {}
+                None if ownership == Ownership::default() => {}
+                None => self.elsewhere.push((name, ownership)),
+            }
+        }
     }
 
     /// What the frame uses of the program's, and was not imported since the executor before this one had it.

@@ -13,6 +13,7 @@ mod migrate;
 mod options;
 mod output_readback;
 mod outside_owner;
+mod ownership;
 mod submission;
 
 pub use executor::Executor;

@@ -30,10 +30,12 @@ pub struct AdoptedDevice<'p> {
     pub physical: vk::PhysicalDevice,
     /// The device.
     pub device: &'p ash::Device,
-    /// The extensions that the device was created with. `VK_KHR_dynamic_rendering_local_read`, `VK_KHR_swapchain` and
+    /// The extensions that the device was created with. `VK_KHR_dynamic_rendering_local_read`,
+    /// `VK_KHR_fragment_shader_barycentric`, `VK_EXT_vertex_attribute_divisor` or `VK_KHR_vertex_attribute_divisor`, `VK_KHR_swapchain` and
     /// `VK_EXT_queue_family_foreign` are used.
     pub device_extensions: &'p [&'p CStr],
-    /// The features that the device was created with, as they were chained to its creation.
+    /// The features that the device was created with, as they were chained to its creation. `VkPhysicalDeviceVulkan14Features` isn't read:
+    /// of what it holds, local reads and `vertexAttributeInstanceRateDivisor` are used where the structures and extensions of their own are on.
     pub features: &'p vk::PhysicalDeviceFeatures2<'p>,
     /// Queues that may be used, with their families: one for graphics and compute; if there are, one for compute alone and one for
     /// transfers alone.

@@ -1,9 +1,10 @@
 //! What a program switches on when it makes a device for this crate.
 
-use super::features::{Features, minimum_features};
-use super::minimum::{has_extensions, missing, missing_of};
+use super::features::{Features, known_features, minimum_features};
+use super::minimum::{has_extensions, missing, missing_of, too_old};
 use crate::base::Error;
 use ash::{khr, vk};
+use framewright_graph::base::nearest;
 use framewright_graph::device::EVERY_PLAN_USES;
 use framewright_graph::plan::UsedFeature;
 use std::ffi::CStr;
@@ -37,7 +38,7 @@ impl DeviceFeatures {
     /// all lists together. `robustBufferAccess` isn't among them: add it where files or shaders of strangers are drawn.
     ///
     /// # Errors
-    /// [`Error::Lacking`] with all of them that the physical device lacks.
+    /// [`Error::BadResource`] for a name that no Plan lists; [`Error::Lacking`] with all of them that the physical device lacks.
     ///
     /// # Safety
     /// That of [`DeviceFeatures::of`].
@@ -47,7 +48,9 @@ impl DeviceFeatures {
         names: &[&str],
     ) -> Result<DeviceFeatures, Error> {
         let names: Vec<&str> = EVERY_PLAN_USES.into_iter().chain(names.iter().copied()).collect();
-        // Queues and the version are looked at with those of the minimum.
+        check_names(&names)?;
+        refuse(instance, physical, too_old(instance, physical).into_iter().collect())?;
+        // Queues are looked at with the features of the minimum.
         let mut lacks = missing_of(instance, physical, |name| names.contains(&name));
         let has = Features::of(instance, physical);
         let (of_swapchains, is_minimum) =
@@ -78,6 +81,16 @@ impl DeviceFeatures {
     }
 }
 
+/// Whether Plans may list each of these names.
+fn check_names(names: &[&str]) -> Result<(), Error> {
+    let known = || known_features().chain([UsedFeature::SWAPCHAIN]);
+    let Some(unknown) = names.iter().find(|name| known().all(|it| it != **name)) else { return Ok(()) };
+    let near = nearest(unknown, known()).map_or_else(String::new, |near| format!(" (did you mean {near}?)"));
+    Err(Error::BadResource {
+        what: format!("no Plan uses a feature {unknown}{near}: take the names of `Plan::features`"),
+    })
+}
+
 /// Refuses a physical device that lacks anything.
 fn refuse(instance: &ash::Instance, physical: vk::PhysicalDevice, missing: Vec<String>) -> Result<(), Error> {
     if missing.is_empty() {
@@ -87,4 +100,26 @@ fn refuse(instance: &ash::Instance, physical: vk::PhysicalDevice, missing: Vec<S
     let properties = unsafe { instance.get_physical_device_properties(physical) };
     let name = properties.device_name_as_c_str().unwrap_or_default();
     Err(Error::Lacking { device: name.to_string_lossy().into_owned(), missing })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gpu::features::DIVISOR;
+
+    #[test]
+    fn do_11_the_divisor_comes_with_either_extension() {
+        let has = |khr_divisor| {
+            let mut has = Features { khr_divisor, ..Features::default() };
+            has.divisor.vertex_attribute_instance_rate_divisor = vk::TRUE;
+            has
+        };
+        let khr = khr::vertex_attribute_divisor::NAME;
+        for (khr_divisor, name) in [(false, DIVISOR), (true, khr)] {
+            let used = Features::used(has(khr_divisor), |on| on == name);
+            assert_eq!(used.extensions(), [name]);
+            assert_eq!(used.only(&["vertexAttributeInstanceRateDivisor"]).extensions(), [name]);
+        }
+        assert_eq!(Features::used(has(true), |_| false).extensions(), [c""; 0]);
+    }
 }

@@ -13,10 +13,12 @@ pub(crate) struct Features {
     pub(super) v1_1: vk::PhysicalDeviceVulkan11Features<'static>,
     pub(super) v1_2: vk::PhysicalDeviceVulkan12Features<'static>,
     pub(super) v1_3: vk::PhysicalDeviceVulkan13Features<'static>,
-    local_read: vk::PhysicalDeviceDynamicRenderingLocalReadFeaturesKHR<'static>,
+    pub(super) local_read: vk::PhysicalDeviceDynamicRenderingLocalReadFeaturesKHR<'static>,
     pub(super) barycentric: vk::PhysicalDeviceFragmentShaderBarycentricFeaturesKHR<'static>,
     pub(super) divisor: vk::PhysicalDeviceVertexAttributeDivisorFeaturesKHR<'static>,
-    subgroups: Subgroups,
+    /// Whether the divisor comes with the extension of the Khronos Group alone.
+    pub(super) khr_divisor: bool,
+    pub(super) subgroups: Subgroups,
 }
 
 /// What a device can do with subgroups. No feature switches it on.
@@ -86,12 +88,21 @@ const OPTIONAL_FEATURES: [OptionalFeature; 4] = [
     ("shaderOutputLayer", "two eyes by instances, in layers", |it| &mut it.v1_2.shader_output_layer),
 ];
 
+/// The extension of the divisor, which the Khronos Group has taken over under a name of its own: either will do.
+pub(super) const DIVISOR: &CStr = ext::vertex_attribute_divisor::NAME;
+
 /// Features that come with an extension of the device: its name, and the flag. They are used where a device has them.
 const OF_EXTENSIONS: [(&CStr, Flag); 3] = [
     (khr::dynamic_rendering_local_read::NAME, |it| &mut it.local_read.dynamic_rendering_local_read),
     (khr::fragment_shader_barycentric::NAME, |it| &mut it.barycentric.fragment_shader_barycentric),
-    (ext::vertex_attribute_divisor::NAME, |it| &mut it.divisor.vertex_attribute_instance_rate_divisor),
+    (DIVISOR, |it| &mut it.divisor.vertex_attribute_instance_rate_divisor),
 ];
+
+/// All names that [`Features::has`] knows.
+pub(super) fn known_features() -> impl Iterator<Item = &'static str> {
+    let optional = optional_features().map(|(name, _)| name);
+    minimum_features().chain(optional).chain([LOCAL_READ]).chain(SUBGROUPS.iter().map(|(name, _)| *name))
+}
 
 /// The flag of a feature, by Vulkan's name.
 fn flag(name: &str) -> Option<Flag> {
@@ -132,6 +143,7 @@ impl Features {
         let mut divisor = vk::PhysicalDeviceVertexAttributeDivisorFeaturesKHR::default();
         let [has_local_read, has_barycentric, has_divisor] =
             has_extensions(instance, physical, OF_EXTENSIONS.map(|(name, _)| name));
+        let [has_khr_divisor] = has_extensions(instance, physical, [khr::vertex_attribute_divisor::NAME]);
         let mut all = vk::PhysicalDeviceFeatures2::default();
         all = all.push_next(&mut v1_1).push_next(&mut v1_2).push_next(&mut v1_3);
         if has_local_read {
@@ -140,7 +152,7 @@ impl Features {
         if has_barycentric {
             all = all.push_next(&mut barycentric);
         }
-        if has_divisor {
+        if has_divisor || has_khr_divisor {
             all = all.push_next(&mut divisor);
         }
         // SAFETY: `physical` belongs to `instance`, and the chained structures outlive the call.
@@ -154,16 +166,18 @@ impl Features {
         divisor.p_next = std::ptr::null_mut();
         let subgroups = Subgroups::of(instance, physical);
         without_unchecked(instance, physical, &mut v1_2);
-        Features { core, v1_1, v1_2, v1_3, local_read: local, barycentric, divisor, subgroups }
+        let khr_divisor = has_khr_divisor && !has_divisor;
+        Features { core, v1_1, v1_2, v1_3, local_read: local, barycentric, divisor, khr_divisor, subgroups }
     }
 
     /// The features that are switched on: those of the minimum, what [`optional_features`] lists beyond it, and local
     /// reads, as far as the device has them. `extensions`: whether the device may have this extension switched on.
     pub(crate) fn used(mut has: Features, extensions: impl Fn(&CStr) -> bool) -> Features {
+        let khr_divisor = |name: &CStr| name == DIVISOR && extensions(khr::vertex_attribute_divisor::NAME);
         for (name, flag) in OF_EXTENSIONS {
-            *flag(&mut has) &= vk::Bool32::from(extensions(name));
+            *flag(&mut has) &= vk::Bool32::from(extensions(name) || khr_divisor(name));
         }
-        let mut features = Features::default();
+        let mut features = Features { khr_divisor: has.khr_divisor, ..Features::default() };
         for (_, flag) in MINIMUM_FEATURES {
             *flag(&mut features) = *flag(&mut has);
         }
@@ -324,7 +338,8 @@ impl Features {
 
     /// Those of these features alone, as far as `self` has them, and what Vulkan wants together with them.
     pub(super) fn only(&self, names: &[&str]) -> Features {
-        let mut features = Features { subgroups: self.subgroups, ..Features::default() };
+        let (subgroups, khr_divisor) = (self.subgroups, self.khr_divisor);
+        let mut features = Features { subgroups, khr_divisor, ..Features::default() };
         for flag in names.iter().filter_map(|name| flag(name)) {
             *flag(&mut features) = *flag(&mut self.copy());
         }
@@ -335,14 +350,16 @@ impl Features {
 
     /// A copy, chained to nothing.
     pub(crate) fn copy(&self) -> Features {
-        let Features { core, v1_1, v1_2, v1_3, local_read, barycentric, divisor, subgroups } = *self;
-        Features { core, v1_1, v1_2, v1_3, local_read, barycentric, divisor, subgroups }
+        let Features { core, v1_1, v1_2, v1_3, local_read, barycentric, divisor, khr_divisor, subgroups } = *self;
+        Features { core, v1_1, v1_2, v1_3, local_read, barycentric, divisor, khr_divisor, subgroups }
     }
 
     /// The device's extensions that the features come with.
     pub(crate) fn extensions(&self) -> Vec<&'static CStr> {
         let mut all = self.copy();
-        OF_EXTENSIONS.into_iter().filter(|(_, flag)| *flag(&mut all) == vk::TRUE).map(|(name, _)| name).collect()
+        let on = OF_EXTENSIONS.into_iter().filter(|(_, flag)| *flag(&mut all) == vk::TRUE);
+        let named = |name| if name == DIVISOR && self.khr_divisor { khr::vertex_attribute_divisor::NAME } else { name };
+        on.map(|(name, _)| named(name)).collect()
     }
 
     /// Vulkan's names of the features that are switched on, and that pipelines can need.

@@ -46,7 +46,7 @@ pub(crate) struct Gpu {
     pub(crate) followers: Followers,
     abandoned: OnceLock<PendingWork>,
     /// Whether the program made the device itself, and destroys it.
-    is_adopted: bool,
+    pub(crate) is_adopted: bool,
     /// Cancels waits for the device.
     pub(crate) cancel: Cancel,
     pub(crate) instance: ManuallyDrop<Instance>,

@@ -20,6 +20,14 @@ pub(crate) fn has_extensions<const N: usize>(
     names.map(|name| extensions.iter().any(|it| it.extension_name_as_c_str() == Ok(name)))
 }
 
+/// What `physical` lacks if its version of Vulkan is too old. The features of 1.3 can't be asked for then.
+pub(super) fn too_old(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Option<String> {
+    // SAFETY: `physical` belongs to `instance`.
+    let properties = unsafe { instance.get_physical_device_properties(physical) };
+    let has = properties.api_version;
+    (has < MINIMUM_VERSION).then(|| format!("Vulkan {} (it has {})", version(MINIMUM_VERSION), version(has)))
+}
+
 /// All that `physical` lacks of the minimum, by Vulkan's names.
 pub(crate) fn missing(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Vec<String> {
     missing_of(instance, physical, |_| true)
@@ -31,11 +39,8 @@ pub(crate) fn missing_of(
     physical: vk::PhysicalDevice,
     wanted: impl Fn(&str) -> bool,
 ) -> Vec<String> {
-    // SAFETY: `physical` belongs to `instance`.
-    let properties = unsafe { instance.get_physical_device_properties(physical) };
-    if properties.api_version < MINIMUM_VERSION {
-        // Its 1.3 features can't even be asked for.
-        return vec![format!("Vulkan {} (it has {})", version(MINIMUM_VERSION), version(properties.api_version))];
+    if let Some(version) = too_old(instance, physical) {
+        return vec![version];
     }
     let features = Features::of(instance, physical).missing().into_iter().filter(|name| wanted(name));
     let mut missing: Vec<String> = features.map(|name| format!("the feature {name}")).collect();

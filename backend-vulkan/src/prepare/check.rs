@@ -156,7 +156,10 @@ fn features(gpu: &Gpu, plan: &Plan) -> Result<(), Error> {
     let missing: Vec<_> = plan.own_features().into_iter().filter(|it| !has(it)).collect();
     match missing.is_empty() {
         true => Ok(()),
-        false => Err(Error::WithoutFeatures { device: gpu.summary.name.clone(), missing }),
+        false => {
+            let (device, adopted) = (gpu.summary.name.clone(), gpu.is_adopted);
+            Err(Error::WithoutFeatures { device, missing, adopted })
+        }
     }
 }
 

@@ -236,6 +236,8 @@ pub(super) fn prepare_draw(
     };
     let indirect = if draw.is_indirect() { Some(indirect(pass).map_err(mismatch)?) } else { None };
     let targets = targets(plan, scope, pass).map_err(mismatch)?;
+    let brought = shaders.brought_along(Some(draw), &pass.shader);
+    let brought_buffers = u32::try_from(brought.vertex_buffers.len()).unwrap_or(u32::MAX);
     let nothing = |sets, formats: ScopeFormats| PreparedDraw {
         draw,
         sets,
@@ -245,7 +247,7 @@ pub(super) fn prepare_draw(
             formats,
             supplied: SuppliedSets::default(),
             vertex_buffers: Vec::new(),
-            brought_buffers: 0,
+            brought_buffers,
             pushed: Vec::new(),
             pushed_bytes: 0,
             usual_vertices: false,
@@ -262,7 +264,6 @@ pub(super) fn prepare_draw(
         }
         other => other.map_err(|problem| Error::Shader { name: pass.shader.to_string(), problem })?,
     };
-    let brought = shaders.brought_along(Some(draw), &pass.shader);
     let written: Vec<_> = targets.iter().map(|target| &scope.color()[*target]).collect();
     check_brought(&brought).map_err(mismatch)?;
     check_program(&shader.interface, shaders.draws()).map_err(mismatch)?;
@@ -313,7 +314,6 @@ pub(super) fn prepare_draw(
     };
     let pipeline = Some(PassPipeline::unmade(PipelineDescriptor::Graphics(descriptor.into())));
     let read = if own_vertices { Vec::new() } else { vertex_buffers };
-    let brought_buffers = u32::try_from(brought.vertex_buffers.len()).unwrap_or(u32::MAX);
     let usual_vertices = shader.usual_vertices;
     let pushed = shader.interface.pushed.clone();
     let pushed_bytes = if pushed.is_empty() { 0 } else { brought.pushed_bytes() };

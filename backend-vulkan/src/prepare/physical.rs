@@ -105,6 +105,11 @@ impl PhysicalResources {
         self.rings.choose(resource, choice);
     }
 
+    /// The number that is chosen among what the program handed in for an external image or buffer.
+    pub(crate) fn choice(&self, resource: Resource) -> usize {
+        self.rings.choice(resource)
+    }
+
     /// Takes the contents of another Plan's image for the first frame. They have this extent.
     pub(crate) fn migrate_image(&mut self, image: ImageId, from: Arc<Image>, extent: [u32; 3]) {
         self.images[image.0 as usize] = from;

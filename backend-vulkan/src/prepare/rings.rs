@@ -120,6 +120,14 @@ impl ResourceRings {
         }
     }
 
+    /// The number that is chosen for an external image or buffer.
+    pub(crate) fn choice(&self, resource: Resource) -> usize {
+        match self.rings[self.position(resource).ring].turns {
+            RingKind::Chosen { now, .. } => now,
+            RingKind::EachFrame => 0,
+        }
+    }
+
     fn position(&self, resource: Resource) -> RingPosition {
         match resource {
             Resource::Image(image) => self.images[image.0 as usize],
@@ -182,12 +190,16 @@ impl Period {
         !self.chosen.is_empty()
     }
 
-    /// The number of a turn among all that differ.
-    fn number(&self, turn: Turn<'_>) -> usize {
-        let by_frame = usize::try_from(turn.frame % self.frames()).unwrap_or(0);
-        self.chosen.iter().map(|ring| &turn.rings.rings[*ring]).fold(by_frame, |number, ring| match ring.turns {
-            RingKind::Chosen { now, count } => number * count + now,
-            RingKind::EachFrame => number,
+    /// The place of a turn's frame in the period.
+    fn place(&self, turn: Turn<'_>) -> usize {
+        usize::try_from(turn.frame % self.frames()).unwrap_or(0)
+    }
+
+    /// What the program chooses in a turn, ring by ring.
+    fn choices<'t>(&'t self, turn: Turn<'t>) -> impl Iterator<Item = usize> + 't {
+        self.chosen.iter().map(move |ring| match turn.rings.rings[*ring].turns {
+            RingKind::Chosen { now, .. } => now,
+            RingKind::EachFrame => 0,
         })
     }
 }
@@ -195,7 +207,8 @@ impl Period {
 /// Objects that are made for the images and buffers of one frame, and used again whenever the same stand for the same.
 pub(crate) struct RingCache<T> {
     period: Period,
-    made: Vec<Option<T>>,
+    /// By the place in the period: the choices that there were, and what is made for each.
+    made: Vec<Vec<(Box<[usize]>, T)>>,
 }
 
 impl<T> RingCache<T> {
@@ -206,20 +219,28 @@ impl<T> RingCache<T> {
 
     /// The objects for a turn, if they are made.
     pub(crate) fn at(&self, turn: Turn<'_>) -> Option<&T> {
-        self.made.get(self.period.number(turn))?.as_ref()
+        let made = self.made.get(self.period.place(turn))?;
+        made.iter().find(|(choices, _)| self.is_of(choices, turn)).map(|(_, made)| made)
     }
 
     /// The objects for a turn, which are made unless they are there.
     pub(crate) fn prepare(&mut self, turn: Turn<'_>, make: impl FnOnce() -> Result<T, Error>) -> Result<&T, Error> {
-        let slot = self.period.number(turn);
-        if self.made.len() <= slot {
-            self.made.resize_with(slot + 1, || None);
+        let place = self.period.place(turn);
+        if self.made.len() <= place {
+            self.made.resize_with(place + 1, Vec::new);
         }
-        let made = &mut self.made[slot];
-        Ok(match made {
-            Some(made) => made,
-            None => made.insert(make()?),
-        })
+        let found = self.made[place].iter().position(|(choices, _)| self.is_of(choices, turn));
+        let at = found.unwrap_or(self.made[place].len());
+        if found.is_none() {
+            let made = make()?;
+            self.made[place].push((self.period.choices(turn).collect(), made));
+        }
+        Ok(&self.made[place][at].1)
+    }
+
+    /// Whether the program chooses so in this turn.
+    fn is_of(&self, choices: &[usize], turn: Turn<'_>) -> bool {
+        self.period.choices(turn).eq(choices.iter().copied())
     }
 
     /// Forgets everything: other images or buffers stand for the Plan's now. Nothing of it may be in use.
@@ -283,6 +304,30 @@ mod tests {
         }
         assert_eq!(made, 6, "two of history, each with three choices");
         assert!(!rings.has_choice(handed_in, 3) && !rings.has_choice(Resource::Image(ImageId(0)), 0));
+    }
+
+    /// A table of all combinations would have 3^20 places.
+    #[test]
+    fn do_11_objects_are_kept_for_the_choices_that_there_were_alone() {
+        let mut rings = rings(&[None; 20]);
+        let all: Vec<_> = (0..20).map(|image| Resource::Image(ImageId(image))).collect();
+        for (number, resource) in all.iter().enumerate() {
+            rings.set_members(*resource, (3 * number..3 * number + 3).collect(), 3);
+        }
+        let mut cache = RingCache::new(rings.period(all.iter().copied()));
+        let mut made = 0;
+        for frame in 0..9 {
+            all.iter().for_each(|resource| rings.choose(*resource, frame % 3));
+            let turn = rings.turn(frame as u64);
+            let make = || {
+                made += 1;
+                Ok(frame % 3)
+            };
+            assert_eq!(*cache.prepare(turn, make).expect("nothing fails"), frame % 3);
+        }
+        rings.choose(all[7], 0);
+        assert!(cache.at(rings.turn(9)).is_none(), "all but one are as they were in turn 2");
+        assert_eq!(made, 3);
     }
 
     #[test]

@@ -180,7 +180,8 @@ impl<'f> Recorder<'f> {
         self.bind_vertex_buffer_at(0, buffer, 0);
     }
 
-    /// Binds the vertex buffer `number` of the draw interface, from an offset in bytes on, which is a multiple of 4.
+    /// Binds the vertex buffer `number` of the draw interface, from an offset in bytes on, which is a multiple of 4. One whose number the
+    /// device has no binding of is left out: no pipeline reads it.
     pub fn bind_vertex_buffer_at(&mut self, number: u32, buffer: &Buffer, offset: u64) {
         if !self.may_bind(buffer, vk::BufferUsageFlags::VERTEX_BUFFER) {
             return self.misused(|| "the buffer was not made for vertices, or not by this device".to_owned());
@@ -197,8 +198,10 @@ impl<'f> Recorder<'f> {
         let bound = &mut self.sets.held.vertices;
         bound.retain(|(known, _)| *known != number);
         bound.push((number, bytes));
-        // SAFETY: the command buffer is being recorded, the buffer was made for vertices, and the device has such a binding: what the draw
-        // interface has was checked, and each device has the first.
+        if number >= self.canvas.gpu.limits.max_vertex_input_bindings {
+            return;
+        }
+        // SAFETY: the command buffer is being recorded, the buffer was made for vertices, and the device has such a binding.
         unsafe {
             self.canvas.gpu.raw.cmd_bind_vertex_buffers(self.canvas.commands, number, &[buffer.0.raw], &[offset])
         };

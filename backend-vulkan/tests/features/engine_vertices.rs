@@ -13,7 +13,7 @@ use framewright_vulkan::{
     Buffer, BufferUsage, Device, DrawSource, Error, Executor, ExecutorOptions, IndexType, Recorder, ShaderLibrary,
 };
 
-const OBJECTS: Draw = Draw::Objects(DrawList::Opaque);
+pub(crate) const OBJECTS: Draw = Draw::Objects(DrawList::Opaque);
 const EXTENT: [u32; 2] = [8, 8];
 /// Six corners of a square.
 const CORNERS: [[i16; 2]; 6] = [[-1, -1], [1, -1], [-1, 1], [-1, 1], [1, -1], [1, 1]];
@@ -75,7 +75,7 @@ fn many(divisor: u32) -> DrawInterface {
 }
 
 /// Places and values, 32-bit floats of one buffer.
-fn plain() -> DrawInterface {
+pub(crate) fn plain() -> DrawInterface {
     DrawInterface {
         vertex_buffers: vec![VertexBuffer::of_vertices(12)],
         attributes: vec![Attribute::new("place", 2, 0), Attribute::new("given", 1, 8)],
@@ -84,10 +84,10 @@ fn plain() -> DrawInterface {
 }
 
 /// A quarter of the picture of one value: its corner, and the numbers that make it.
-const QUARTERS: [([f32; 2], u8, i8, u32); 4] =
+pub(crate) const QUARTERS: [([f32; 2], u8, i8, u32); 4] =
     [([-0.5, -0.5], 1, 2, 1), ([0.5, -0.5], 2, 4, 51), ([-0.5, 0.5], 3, 6, 102), ([0.5, 0.5], 4, 8, 7)];
 
-fn value((_, number, sign, bits): ([f32; 2], u8, i8, u32)) -> u32 {
+pub(crate) fn value((_, number, sign, bits): ([f32; 2], u8, i8, u32)) -> u32 {
     77 + 1000 * u32::from(number) + 10_000 * u32::from(sign.unsigned_abs()) + 100_000 * bits
 }
 
@@ -155,8 +155,8 @@ impl DrawSource for Many {
 }
 
 /// Draws one buffer of floats, with or without indices.
-struct Plain {
-    vertices: Buffer,
+pub(crate) struct Plain {
+    pub(crate) vertices: Buffer,
     count: u32,
     indices: Option<(Buffer, u32)>,
 }
@@ -175,7 +175,7 @@ impl Plain {
     }
 
     /// The quarters.
-    fn quarters(device: &Device) -> Plain {
+    pub(crate) fn quarters(device: &Device) -> Plain {
         let corner = |it: &([f32; 2], u8, i8, u32), [x, y]: [i16; 2]| {
             #[allow(clippy::cast_precision_loss, reason = "small whole numbers")]
             let value = value(*it) as f32;
@@ -201,7 +201,7 @@ impl DrawSource for Plain {
 }
 
 /// A frame of one pass.
-fn plan(device: &Device, pass: impl Fn(Pass) -> Pass, (shader, drawn): (&str, Draw)) -> Plan {
+pub(crate) fn plan(device: &Device, pass: impl Fn(Pass) -> Pass, (shader, drawn): (&str, Draw)) -> Plan {
     let mut small = Small::default();
     let shown = small.image("shown", Format::R32_UINT, EXTENT);
     small.pass(pass(draw(shader, drawn).draws(shown, Subresources::WHOLE, Some([0.0; 4]))));
@@ -209,13 +209,18 @@ fn plan(device: &Device, pass: impl Fn(Pass) -> Pass, (shader, drawn): (&str, Dr
     planned(device, &small.frame, &Options::default())
 }
 
-fn executor(device: &Device, plan: &Plan, draws: impl Into<DrawInterfaces>) -> Result<Executor, Error> {
+pub(crate) fn executor(device: &Device, plan: &Plan, draws: impl Into<DrawInterfaces>) -> Result<Executor, Error> {
     let options = ExecutorOptions { readback: true, ..ExecutorOptions::default() };
     Executor::new(device, plan, &mut ShaderLibrary::new(Vec::new(), SHADERS, draws), &options)
 }
 
 /// What a source draws with this interface.
-fn drawn(device: &Device, shader: &str, draws: DrawInterface, source: &mut dyn DrawSource) -> Result<Vec<u32>, Error> {
+pub(crate) fn drawn(
+    device: &Device,
+    shader: &str,
+    draws: DrawInterface,
+    source: &mut dyn DrawSource,
+) -> Result<Vec<u32>, Error> {
     let plan = plan(device, |pass| pass, (shader, OBJECTS));
     let mut executor = executor(device, &plan, move |_| draws.clone())?;
     executor.frame(source)?;

@@ -347,6 +347,32 @@ fn do_11_frames_use_buffers_of_the_program_in_turn() {
     });
 }
 
+/// The program sets the buffer of the next frame, and reads that of the last one.
+#[test]
+fn do_11_what_the_program_sets_between_frames_is_in_the_buffer_whose_turn_it_is() {
+    on_each_driver(|device| {
+        let mut executor = executor(device, &increased());
+        let own = [own_buffer(device), own_buffer(device), own_buffer(device)];
+        // SAFETY: each is made as the Plan says, and lives until the executor is dropped; nothing else touches it.
+        unsafe { executor.import_buffers("own", &own.map(|(buffer, _)| buffer)) }.expect("it is external");
+        let mut last = None;
+        for number in 0..7 {
+            let given = [10 * number, 10 * number + 1, 10 * number + 2];
+            executor.write_buffer("own", &to_bytes(&given)).expect("it fits");
+            if let Some(last) = last {
+                assert_eq!(words(&mut executor, "own"), last, "frame {number}");
+            }
+            frame(&mut executor);
+            let increased = given.map(|word| word + 1);
+            assert_eq!(words(&mut executor, "own"), increased, "frame {number}");
+            last = Some(increased);
+        }
+        drop(executor);
+        // SAFETY: the executor was dropped.
+        own.into_iter().for_each(|buffer| unsafe { destroy_buffer(device, buffer) });
+    });
+}
+
 #[test]
 fn do_11_images_that_died_are_told_and_those_of_the_program_are_not() {
     on_each_driver(|device| {

@@ -124,7 +124,10 @@ fn a_pass_reads_what_its_scope_drew_at_its_own_position() {
         let executor = Executor::new(device, &plan, &mut library(SHADERS), &ExecutorOptions::default());
         if !device.summary().local_read {
             match executor.err() {
-                Some(Error::WithoutFeatures { missing, .. }) => {
+                Some(ref error @ Error::WithoutFeatures { ref missing, .. }) => {
+                    let said = error.to_string();
+                    assert!(said.contains(" lacks what the Plan uses: "), "the library opened it: {said}");
+                    assert!(said.ends_with("; choose another device"), "{said}");
                     let names: Vec<_> = missing.iter().map(|it| it.name).collect();
                     assert_eq!(names, ["dynamicRenderingLocalRead"], "{missing:?}");
                 }

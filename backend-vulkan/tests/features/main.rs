@@ -37,6 +37,7 @@ mod program_sets;
 mod queues;
 mod resolves;
 mod state;
+mod stray_vertices;
 mod submitting;
 mod subresources;
 mod texture_arrays;

@@ -93,6 +93,21 @@ fn names(used: &[UsedFeature]) -> Vec<&'static str> {
     used.iter().map(|it| it.name).collect()
 }
 
+#[test]
+fn do_11_a_name_that_no_plan_lists_is_a_slip_and_not_the_devices_fault() {
+    on_each_driver(|like| {
+        let (instance, physical) = like.raw_physical();
+        let refused = |name| {
+            // SAFETY: the physical device belongs to the instance.
+            let made = unsafe { DeviceFeatures::exactly(instance, physical, &["synchronization2", name]) };
+            made.map(drop).expect_err("there is no such feature").to_string()
+        };
+        let how = ": take the names of `Plan::features`";
+        assert_eq!(refused("multivew"), format!("no Plan uses a feature multivew (did you mean multiview?){how}"));
+        assert_eq!(refused("luck"), format!("no Plan uses a feature luck{how}"));
+    });
+}
+
 /// Executes a Plan with these features alone; what is said if it is refused.
 fn executed(like: &Device, plan: &Plan, used: &[UsedFeature], then: impl FnOnce(&mut Executor)) -> Result<(), Error> {
     on_device_with(like, used, |device| {

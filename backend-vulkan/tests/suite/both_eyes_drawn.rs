@@ -128,7 +128,7 @@ fn each_eyes_picture_is_drawn_where_the_device_can_and_refused_in_words_where_it
                 assert!(!draws(&profile, mode), "{mode:?}: {error}");
                 let said = error.to_string();
                 let expected = format!("draws for both eyes at once ({})", mode.0.name());
-                let refused = said.contains(" can't") || said.contains(" was created without ");
+                let refused = said.contains(" can't") || said.contains(" lacks what the Plan uses: ");
                 assert!(said.contains(&expected) && refused, "{said}");
             }
         }

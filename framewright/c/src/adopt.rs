@@ -121,10 +121,17 @@ fn is_null(null: bool, what: &str) -> Result<(), Problem> {
 
 /// Features and extensions for a device that the program makes, and has the library use.
 pub struct FramewrightFeatures {
-    /// What the chain leads to.
-    _features: Box<DeviceFeatures>,
+    /// What the chain leads to, out of a box, which isn't moved any more.
+    features: *mut DeviceFeatures,
     chain: vk::PhysicalDeviceFeatures2<'static>,
     extensions: Vec<*const c_char>,
+}
+
+impl Drop for FramewrightFeatures {
+    fn drop(&mut self) {
+        // SAFETY: it comes from a box, and whoever has the handle no longer uses the chain.
+        drop(unsafe { Box::from_raw(self.features) });
+    }
 }
 
 /// Tells with which features and extensions the program makes a device that the library is to use: those that
@@ -150,15 +157,11 @@ pub unsafe extern "C" fn framewright_features_open(
                 Some(used) => DeviceFeatures::exactly(&instance, physical_device, &used.texts("used")?)?,
             }
         };
-        let mut features = Box::new(features);
         let extensions = features.extensions().iter().map(|name| name.as_ptr()).collect();
+        let features = Box::into_raw(Box::new(features));
         // SAFETY: what the chain leads to stays where it is, and lives as long: both are freed together.
-        let chain = unsafe {
-            std::mem::transmute::<vk::PhysicalDeviceFeatures2<'_>, vk::PhysicalDeviceFeatures2<'static>>(
-                features.chain(),
-            )
-        };
-        Ok(FramewrightFeatures { _features: features, chain, extensions })
+        let chain = unsafe { (*features).chain() };
+        Ok(FramewrightFeatures { features, chain, extensions })
     };
     // SAFETY: the caller's word.
     call(|| unsafe { handle(features, "features", open) })

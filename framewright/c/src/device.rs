@@ -115,6 +115,7 @@ pub unsafe extern "C" fn framewright_device_findings(
 
 /// Tells each image of the library's that was destroyed since the last call; the first call begins to look. A program that keeps views of
 /// images that it was told, as by `framewright_pass_image`, destroys those views then: another image may have the same handle later.
+/// It asks in the function that records the pass, before it looks up a view.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn framewright_device_dead_images(
     device: *const FramewrightDevice,

@@ -13,11 +13,11 @@ use std::ffi::c_char;
 use std::ptr;
 use std::sync::Arc;
 
-/// An image of the program's that a frame uses.
+/// An image or buffer of the program's that a frame uses.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct FramewrightChoice {
-    /// The name of the external image.
+    /// The name of the external image or buffer.
     pub name: *const c_char,
     /// The number of the one to use among those that were imported, from 0.
     pub image: usize,
@@ -41,7 +41,8 @@ pub struct FramewrightSemaphore {
 pub struct FramewrightSubmission {
     /// sizeof(FramewrightSubmission).
     pub struct_size: usize,
-    /// Images of the program's, for external images of which several were imported. One that isn't listed is that of the frame before.
+    /// Images and buffers of the program's, for external ones of which several were imported. An image that isn't listed is that of the
+    /// frame before; a buffer is the one whose turn it is.
     pub images: *const FramewrightChoice,
     /// How many.
     pub image_count: usize,
