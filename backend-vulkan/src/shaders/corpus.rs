@@ -226,8 +226,11 @@ fn garbled_modules_of_each_compiler_end_neither_the_program_nor_its_time_and_mem
     assert!(read > 1000, "{read}");
 }
 
-/// What becomes of a word.
-const CHANGES: [(&str, fn(u32) -> u32); 6] = [
+/// A name, and what becomes of a word.
+type Change = (&'static str, fn(u32) -> u32);
+
+/// All of them.
+const CHANGES: [Change; 6] = [
     ("one more", |word| word.wrapping_add(1)),
     ("one less", |word| word.wrapping_sub(1)),
     ("zero", |_| 0),

@@ -67,7 +67,8 @@ impl DrawInterface {
 }
 
 /// What reading a shader's attributes out of the buffers of a draw source asks of the device. Attributes that don't fit ask for nothing.
-pub(super) fn vertex_needs(inputs: &[VertexInput], brought: &DrawInterface) -> Vec<Need> {
+#[must_use]
+pub fn vertex_needs(inputs: &[VertexInput], brought: &DrawInterface) -> Vec<Need> {
     let mut needs = Vec::new();
     let mut need = |kind| {
         let need = Need { kind, place: "".into() };
@@ -109,7 +110,8 @@ pub(super) fn vertex_needs(inputs: &[VertexInput], brought: &DrawInterface) -> V
 }
 
 /// What the push constants of a draw source ask of the device.
-pub(super) fn push_needs(brought: &DrawInterface) -> Option<Need> {
+#[must_use]
+pub fn push_needs(brought: &DrawInterface) -> Option<Need> {
     let value = u64::from(brought.pushed_bytes());
     let what = || format!("{value} bytes of push constants are brought along").into();
     let limit = Limit::PushConstantBytes;

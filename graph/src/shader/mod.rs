@@ -31,7 +31,7 @@ use std::collections::HashSet;
 use std::fmt;
 use std::sync::Arc;
 
-use brought_needs::{push_needs, vertex_needs};
+pub use brought_needs::{push_needs, vertex_needs};
 pub use brought_vertices::{Attribute, AttributeMisfit, BroughtLocation, VertexBuffer, VertexRate};
 pub use constant::{ConstantValue, ShaderConstant};
 pub use draw_faults::{DrawFault, DrawPart};
