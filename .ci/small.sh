@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # What the library costs a program of ten lines: seconds to build it from nothing, and bytes of what is built. Run it by hand on a quiet
-# machine; docs/embedding.md has its table.
+# machine.
 #
 # usage: .ci/small.sh [FEATURES…]     each a list with commas; by default none, those for files, and all
 set -euo pipefail
