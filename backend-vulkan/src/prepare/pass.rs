@@ -52,6 +52,8 @@ pub(crate) struct PassState {
     pub(crate) supplied: SuppliedSets,
     /// The vertex buffers that the pipeline reads and the draw source provides.
     pub(crate) vertex_buffers: Vec<VertexBinding>,
+    /// Whether any of them has an element for each instance, or for several.
+    pub(crate) reads_by_instance: bool,
     /// How many vertex buffers the draw source provides.
     pub(crate) brought_buffers: u32,
     /// The blocks of push constants that its stages read.
@@ -247,6 +249,7 @@ pub(super) fn prepare_draw(
             formats,
             supplied: SuppliedSets::default(),
             vertex_buffers: Vec::new(),
+            reads_by_instance: false,
             brought_buffers,
             pushed: Vec::new(),
             pushed_bytes: 0,
@@ -320,6 +323,7 @@ pub(super) fn prepare_draw(
     let state = PassState {
         formats: formats.clone(),
         supplied,
+        reads_by_instance: read.iter().any(|buffer| buffer.rate.is_by_instance()),
         vertex_buffers: read,
         brought_buffers,
         pushed,

@@ -241,7 +241,7 @@ impl<'f> Recorder<'f> {
         pushed.resize((most / 4) as usize, false);
         pushed[words].fill(true);
         let layout = self.pass.supplied.layout;
-        // SAFETY: the command buffer is being recorded, and the layout has so many bytes, which these stages see.
+        // SAFETY: the command buffer is being recorded, and the bytes lie within the range that the layout has for these stages.
         unsafe { self.canvas.gpu.raw.cmd_push_constants(self.canvas.commands, layout, PARTS_STAGES, offset, bytes) };
     }
 
@@ -349,7 +349,8 @@ impl<'f> Recorder<'f> {
 
     /// What a draw would read beyond its vertex buffers, in words.
     fn beyond(&self, vertices: Option<&Range<u32>>, instances: &Range<u32>) -> Option<String> {
-        if instances.is_empty() {
+        // The device keeps vertices that indices choose within their buffers.
+        if instances.is_empty() || vertices.is_none() && !self.pass.reads_by_instance {
             return None;
         }
         self.pass.vertex_buffers.iter().find_map(|VertexBinding { binding, stride, rate }| {
