@@ -88,10 +88,6 @@ impl<'p> Contents<'p> {
             }
         });
         for part in &self.written {
-            let before = self.writers[*part as usize];
-            if !pass.run.is_always() && before != NOTHING {
-                self.needed[before as usize] = true;
-            }
             if std::mem::replace(&mut self.writers[*part as usize], number) == number {
                 self.twice.push((number, parts.owner(*part)));
             }
