@@ -126,7 +126,7 @@ pub(crate) fn level_bytes(descriptor: &ImageDescriptor, plane: Aspects, mip: u32
     texels_bytes(descriptor, plane, mip_extent(descriptor, mip))
 }
 
-/// Bytes of one plane of so many texels, all layers together.
+/// Bytes of one plane with this extent in texels, all layers together.
 fn texels_bytes(descriptor: &ImageDescriptor, plane: Aspects, extent: [u32; 3]) -> u64 {
     let bytes = match plane {
         Aspects::COLOR => descriptor.format.bytes(extent),

@@ -248,8 +248,8 @@ impl Executor {
         self.runs.run_all();
     }
 
-    /// Gives the next frame a number of the program's: passes that run every few frames go by it, and it is `frame` in parameters. Frames are counted on from there, and
-    /// begin anew with 0 behind the largest number. Without it a frame has the number that [`Executor::frames`] tells before it.
+    /// Gives the next frame a number of the program's: passes that run every few frames go by it, and it is `frame` in parameters.
+    /// Frames are counted on from there, and begin anew with 0 behind the largest number. Without it a frame has the number that [`Executor::frames`] tells before it.
     pub fn set_frame_number(&mut self, number: u64) {
         self.runs.set_number(self.frames(), number);
     }

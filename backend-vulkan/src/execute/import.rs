@@ -69,9 +69,9 @@ impl Import {
         }
     }
 
-    /// Records what takes it over from an outside owner, and the barrier from `after` to `before`, ahead of the first step that accesses the resource. Nothing is recorded
-    /// in the first frame, for resources that the program imports itself, and if `before` equals `after`: then the Plan's
-    /// own barrier waits for all accesses of the frame before.
+    /// Records what takes it over from an outside owner, ahead of the first step that accesses the resource, and the barrier from
+    /// `after` to `before`. There is no such barrier in the first frame, for resources that the program imports itself, and if
+    /// `before` equals `after`: then the Plan's own barrier waits for all accesses of the frame before.
     pub(crate) fn record(&self, frame: &Frame<'_>, commands: vk::CommandBuffer) {
         self.record_taking(frame, commands);
         let Import { before, after, .. } = *self;

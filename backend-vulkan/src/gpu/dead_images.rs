@@ -17,9 +17,11 @@ pub struct DeadImages(Arc<Dead>);
 pub(crate) struct Followers(Mutex<Vec<Weak<Dead>>>);
 
 impl DeadImages {
-    /// The images that were destroyed since the last call, or since this was made. Call it in the code that records a pass, before a view is
-    /// looked up by its image: an image that dies after a call between frames may give its handle to a new one before the pass is recorded. No commands that use them, or views of them, are on
+    /// The images that were destroyed since the last call, or since this was made. No commands that use them, or views of them, are on
     /// their way any more, but for those that the program submitted by itself.
+    ///
+    /// Call it in the code that records a pass, before a view is looked up by its image. A new image may have the handle of one that
+    /// died between frames.
     #[must_use]
     pub fn take(&self) -> Vec<vk::Image> {
         std::mem::take(&mut self.0.lock().unwrap_or_else(PoisonError::into_inner))

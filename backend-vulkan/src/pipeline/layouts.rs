@@ -40,8 +40,8 @@ impl Gpu {
         })
     }
 
-    /// The pipeline layout with these set layouts, and room for the parts of images that passes use, and for so many bytes of push
-    /// constants. All are one range, which all stages see.
+    /// The pipeline layout with these set layouts. Its one range of push constants, which all stages see, holds `pushed` bytes, and the
+    /// parts of images that passes use.
     pub(crate) fn pipeline_layout(
         &self,
         sets: Vec<vk::DescriptorSetLayout>,

@@ -18,7 +18,7 @@ use std::{env, fs};
 
 /// The longest that a module may keep the program.
 const MOST_TIME: Duration = Duration::from_secs(5);
-/// So many words of a module are garbled, all over it.
+/// The number of words that are garbled in a module, one at a time, spread over all of it.
 const MOST_WORDS: usize = 400;
 /// Bytes that reading a module of at most 64 KiB may take.
 const MOST_BYTES: u64 = 256 << 20;

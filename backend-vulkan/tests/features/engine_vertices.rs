@@ -1,5 +1,5 @@
 //! Vertices of a draw source: several buffers, any format, by vertex and by instance, and interfaces of custom passes by their names (DO-5).
-//! What they draw is what the same vertices draw out of one buffer of floats.
+//! Each picture equals that of the same vertices in one buffer of floats.
 
 use crate::frames::{Small, Uses, draw, on_each_driver, planned, texels, to_bytes};
 use framewright_graph::compile::Options;

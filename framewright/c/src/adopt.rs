@@ -129,7 +129,7 @@ pub struct FramewrightFeatures {
 
 impl Drop for FramewrightFeatures {
     fn drop(&mut self) {
-        // SAFETY: it comes from a box, and whoever has the handle no longer uses the chain.
+        // SAFETY: it comes from a box. The program has freed the handle, so it no longer uses the chain.
         drop(unsafe { Box::from_raw(self.features) });
     }
 }

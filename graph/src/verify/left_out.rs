@@ -7,7 +7,7 @@ use crate::plan::Plan;
 #[derive(Debug, Default)]
 pub(super) struct LeftOut(Vec<bool>);
 
-/// At most so many cadences are left out one by one, and run one by one.
+/// The most cadences of which each is tried alone: its steps left out, and the steps of all others left out.
 const MOST_ALONE: usize = 16;
 
 impl LeftOut {

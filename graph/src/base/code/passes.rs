@@ -131,7 +131,7 @@ room! {
     /// What a pass leaves for frames in which it doesn't run is written by others too.
     ///
     /// Where the pass is left out, its readers would find what the others wrote. Let the others write a copy, or run in the same
-    /// frames; or declare it `lifetime: Persistent`: then readers find what was written last, whoever did.
+    /// frames; or declare it `lifetime: Persistent`: then readers find what any pass wrote last.
     KEPT_WRITTEN = 723,
 
     /// Something can't stay for frames in which its writer doesn't run.

@@ -127,7 +127,8 @@ fn follow_each_other(steps: &mut [(u32, [u32; 2])]) {
     }
 }
 
-/// Bytes that a step reads and writes at most: what changes its size from frame to frame keeps its queue. An attachment counts once, however many passes of the scope draw into it.
+/// Bytes that a step reads and writes. Images whose size changes count as allocated, so that no other size moves a step to another
+/// queue. An attachment counts once, however many passes of the scope draw into it.
 fn work(adapted: &AdaptedFrame, step: &Step) -> u64 {
     let attachments = if let Step::Scope(scope) = step { Some(scope.targets()) } else { None };
     let attachments = attachments.into_iter().flatten().map(|target| adapted.most_bytes(target.resource, target.range));
