@@ -50,10 +50,10 @@ pub(crate) fn check_supplied(shader: &ShaderInterface, brought: &DrawInterface) 
 /// Push constants: what the shader reads must be what the draw brings along, and no part of an image is told beside it.
 pub(crate) fn check_pushed(shader: &ShaderInterface, brought: &DrawInterface, parts: bool) -> Result<(), String> {
     let misfit = shader.pushed.iter().find_map(|block| brought.pushed_misfit(block));
-    let beside = || shader.pushed.first().filter(|_| parts);
-    let beside =
-        || beside().map(|it| format!("push constants `{}` beside parts of images, which are some too", it.name));
-    misfit.or_else(beside).map_or(Ok(()), |misfit| Err(format!("the shader reads {misfit}")))
+    let beside = shader.pushed.first().filter(|_| parts).map(|block| {
+        format!("push constants `{}` beside parts of images, which are told by push constants too", block.name)
+    });
+    misfit.or(beside).map_or(Ok(()), |misfit| Err(format!("the shader reads {misfit}")))
 }
 
 /// Sets of the program's: what the shader reads of them must be what they are.
