@@ -150,7 +150,7 @@ fn scenes_shaders_and_files_that_were_missing_are_watched_too() {
     changes(&|| put(&place, "reinhard.frag", inverted), "a shader that stands before the shipped one");
     changes(&|| put(&place, "reinhard.frag", inverted.replace("1.0", "0.5")), "an edited shader");
     changes(&|| std::fs::remove_file(place.path("reinhard.frag")).expect("removed"), "the shipped shader again");
-    assert_eq!(server.said().iter().filter(|line| line.contains("drawn in")).count(), 5, "one frame for an edit");
+    assert_eq!(server.said(5, "drawn in").len(), 5, "one frame for an edit");
 
     // A scene that is gone for a while, as while an editor writes it.
     let gone = std::fs::read(place.path("scene.ron")).expect("it is there");
@@ -456,8 +456,7 @@ fn whatever_is_drawn_is_captured_and_served_and_what_is_left_out_is_said() {
             let (head, png) = server.ask(&address, &server.own(), "");
             assert!(head.starts_with("HTTP/1.1 200") && png.starts_with(b"\x89PNG"), "{name}: {head}");
         }
-        let said = server.said();
-        let said: Vec<&String> = said.iter().filter(|line| line.contains("not captured")).collect();
+        let said = server.said(usize::from(left_out.is_some()), "not captured");
         assert_eq!(said.len(), usize::from(left_out.is_some()), "{name}: {said:?}");
         assert!(left_out.is_none_or(|why| said[0].ends_with(why)), "{name}: {said:?}");
     }

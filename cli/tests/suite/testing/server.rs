@@ -80,8 +80,15 @@ impl Server {
         }
     }
 
-    /// Lines that it has said so far on standard error, of those that weren't asked for before.
-    pub(crate) fn said(&self) -> Vec<String> {
-        self.said.try_iter().collect()
+    /// Lines with `text` that it has said on standard error, of those that weren't asked for before. Waits for `count` of them: what it
+    /// says goes another way than its states, and may come later.
+    pub(crate) fn said(&self, count: usize, text: &str) -> Vec<String> {
+        let mut found = Vec::new();
+        while found.len() < count {
+            let line = self.said.recv_timeout(PATIENCE).unwrap_or_else(|_| panic!("only {found:?} with `{text}`"));
+            found.extend(line.contains(text).then_some(line));
+        }
+        found.extend(self.said.try_iter().filter(|line| line.contains(text)));
+        found
     }
 }
