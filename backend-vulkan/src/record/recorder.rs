@@ -339,7 +339,10 @@ impl<'f> Recorder<'f> {
             self.look_for_missing();
             self.ready = self.misuse.is_none();
         }
+        // The device keeps vertices that indices choose within their buffers.
+        let may_lie_beyond = vertices.is_some() || self.pass.reads_by_instance;
         if self.ready
+            && may_lie_beyond
             && let Some(misuse) = self.beyond(vertices, instances)
         {
             self.misused(|| misuse);
@@ -349,8 +352,7 @@ impl<'f> Recorder<'f> {
 
     /// What a draw would read beyond its vertex buffers, in words.
     fn beyond(&self, vertices: Option<&Range<u32>>, instances: &Range<u32>) -> Option<String> {
-        // The device keeps vertices that indices choose within their buffers.
-        if instances.is_empty() || vertices.is_none() && !self.pass.reads_by_instance {
+        if instances.is_empty() {
             return None;
         }
         self.pass.vertex_buffers.iter().find_map(|VertexBinding { binding, stride, rate }| {

@@ -42,11 +42,12 @@ impl Recording<'_> {
     pub(crate) fn step(&mut self, commands: vk::CommandBuffer, step: usize) -> Result<(), Error> {
         let (gpu, list) = (self.frame.gpu, &self.prepared.list);
         self.observers.begin_step(commands, step);
+        let runs = self.frame.runs(step);
         let mut left_out = false;
         let unprepared = || Error::BadPlan { what: "nothing was prepared for this frame".to_owned() };
         for command in list.step(step, self.frame.turn()).ok_or_else(unprepared)? {
             match command {
-                Command::BeginWork => left_out = !self.frame.runs(step),
+                Command::BeginWork => left_out = !runs,
                 Command::EndWork => left_out = false,
                 _ if left_out => {}
                 Command::BeginLabel(label) => gpu.begin_label(commands, label),
@@ -78,7 +79,7 @@ impl Recording<'_> {
                 }
             }
         }
-        if !self.frame.runs(step) {
+        if !runs {
             self.leave_out(commands, step);
         }
         self.observers.stamp(commands);

@@ -160,7 +160,7 @@ fn expand_so(
     }
     kept.iter_mut().for_each(|kept| kept.end());
     depth_only::note(&resources, &mut states, &mut checked);
-    casters::agree(&pipeline, &states, &mut errors);
+    casters::agree(&resources, &states, &mut errors);
     let outputs = outputs(&resources, inputs, &mut errors);
     let cut = CutImages::new(&resources, states.iter().flat_map(State::runs));
     let parts = cut.parts();

@@ -1,10 +1,12 @@
-//! Cascades of one view are looked up together: they are cut from it in one way, and lie in the layers of one image.
+//! Cascades of one view are looked up together: they are cut from it in one way, and shaders look each up in the layer of its number.
+//! An image that is only copied, such as a cascade that is kept for later frames, may hold any of them in any layer.
 
 use super::state::State;
 use crate::base::{Code, Diagnostic};
 use crate::expand::mistakes::used_here;
-use crate::frame::{Cascade, DepthTarget, Metres, Share, ViewIndex};
-use crate::language::{self, Pipeline};
+use crate::expand::resources::Resources;
+use crate::frame::{Cascade, DepthTarget, ImageIndex, Metres, Share, ViewIndex};
+use crate::language;
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 /// A pass that draws casters.
@@ -12,25 +14,33 @@ struct Casters<'f> {
     pass: &'f language::Pass,
     cascade: Cascade,
     target: &'f DepthTarget,
+    /// Width, height and depth of the image that it draws into, in texels; `None` where a mistake was reported.
+    map: Option<[u32; 3]>,
 }
 
 /// Reports, once for each use of a fragment and each pass outside of fragments, cascades that can't be looked up with the
 /// first of their view, and those that no pass draws.
-pub(in crate::expand) fn agree(pipeline: &Pipeline, states: &[State], errors: &mut Vec<Diagnostic>) {
+pub(in crate::expand) fn agree(resources: &Resources<'_>, states: &[State], errors: &mut Vec<Diagnostic>) {
+    let pipeline = resources.pipeline;
+    let sampled = states.iter().flat_map(State::runs).flat_map(|pass| &pass.sampled);
+    let sampled: HashSet<ImageIndex> = sampled.map(|sampled| sampled.image).collect();
     let mut views: BTreeMap<ViewIndex, Vec<Casters<'_>>> = BTreeMap::new();
     for (pass, state) in pipeline.passes.iter().zip(states) {
         if let State::On(lowered) = state
             && let Some(cascade) = lowered.work.draw().and_then(|(draw, _)| draw.cascade())
             && let Some(target) = &lowered.depth
         {
-            views.entry(pass.view).or_default().push(Casters { pass, cascade, target });
+            let map = resources.image(target.image).map(|image| image.image.extent_at(target.range.base_mip));
+            views.entry(pass.view).or_default().push(Casters { pass, cascade, target, map });
         }
     }
     for all in views.values() {
         let first = &all[0];
         let mut said = HashSet::new();
         for casters in all {
-            let Some(wrong) = differs(first, casters) else { continue };
+            let looked_up = sampled.contains(&casters.target.image);
+            let wrong = differs(first, casters).or_else(|| misplaced(casters).filter(|_| looked_up));
+            let Some(wrong) = wrong else { continue };
             if casters.pass.instance.is_none_or(|instance| said.insert(instance)) {
                 errors.push(wrong);
                 let wrong = errors.len() - 1;
@@ -48,7 +58,7 @@ pub(in crate::expand) fn agree(pipeline: &Pipeline, states: &[State], errors: &m
     }
 }
 
-/// The difference that keeps a pass's cascade from being looked up with the first pass's.
+/// The difference that keeps a pass's cascade from being one of those of the first pass.
 fn differs(first: &Casters<'_>, other: &Casters<'_>) -> Option<Diagnostic> {
     let (name, before) = (&other.pass.name, &first.pass.name);
     if cut(&first.cascade) != cut(&other.cascade) {
@@ -59,15 +69,21 @@ fn differs(first: &Casters<'_>, other: &Casters<'_>) -> Option<Diagnostic> {
             wrong.help("all cascades of a view are of one number and reach, with ends of one kind: give both the same"),
         );
     }
-    if first.target.image != other.target.image {
-        let wrong =
-            Diagnostic::new(Code::CASCADES, other.target.span, "all cascades of a view are layers of one image");
-        return Some(wrong.label(first.target.span, format!("pass `{}` draws into this one", before.text)));
-    }
-    let (index, layer) = (other.cascade.index, other.target.range.base_layer);
+    let ([first_width, first_height, _], [width, height, _]) = (first.map?, other.map?);
+    ([first_width, first_height] != [width, height]).then(|| {
+        let message = "all cascades of a view have maps of one size";
+        let wrong = Diagnostic::new(Code::CASCADES, other.target.span, message);
+        let wrong = wrong.remark(format!("{width}×{height} texels"));
+        wrong.label(first.target.span, format!("pass `{}` draws into {first_width}×{first_height}", before.text))
+    })
+}
+
+/// What keeps shaders from finding a cascade in the image that they sample.
+fn misplaced(casters: &Casters<'_>) -> Option<Diagnostic> {
+    let (index, layer) = (casters.cascade.index, casters.target.range.base_layer);
     (u32::from(index) != layer).then(|| {
         let wrong =
-            Diagnostic::new(Code::CASCADES, other.target.span, format!("cascade {index} belongs into layer {index}"));
+            Diagnostic::new(Code::CASCADES, casters.target.span, format!("cascade {index} belongs into layer {index}"));
         wrong.remark(format!("layer {layer}")).help("shaders look each cascade up in the layer of its number")
     })
 }
