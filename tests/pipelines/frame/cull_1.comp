@@ -3,19 +3,20 @@
 #include "camera.glsl"
 #include "cull.glsl"
 layout(local_size_x = 64) in;
-layout(set = 0, binding = 0) uniform sampler2D hzb[2];
+layout(set = 0, binding = 0) uniform sampler2D hzb_left;
 layout(set = 0, binding = 1, std140) uniform Camera { CameraData data; } camera;
 layout(set = 0, binding = 2, std430) readonly buffer Instances { Instance instance[]; } instances;
 layout(set = 0, binding = 3, std430) buffer List { uint number[]; } list;
 layout(set = 0, binding = 4, std430) buffer Args { uint vertices; uint count; uint first_vertex; uint first_instance; } args;
 layout(set = 0, binding = 5, std430) buffer Rest { uint number[]; } rest;
 layout(set = 0, binding = 6, std430) buffer RestCount { uint count; uint pad[3]; } rest_count;
-layout(set = 0, binding = 7) uniform Params { uint count; } params;
+layout(set = 0, binding = 7) uniform sampler2D hzb_right;
+layout(set = 0, binding = 8) uniform Params { uint count; } params;
 void main() {
     const uint i = gl_GlobalInvocationID.x;
     if (i == 0u) { args.vertices = 36u; }
     if (i >= params.count) { return; }
-    if (may_be_seen(camera.data.before, camera.data.place.xyz, instances.instance[i].sphere, hzb[0]) || may_be_seen(camera.data.before, camera.data.place.xyz, instances.instance[i].sphere, hzb[1])) {
+    if (may_be_seen(camera.data.before, camera.data.place.xyz, instances.instance[i].sphere, hzb_left, hzb_left_st) || may_be_seen(camera.data.before, camera.data.place.xyz, instances.instance[i].sphere, hzb_right, hzb_right_st)) {
         list.number[atomicAdd(args.count, 1u)] = i;
     } else {
         rest.number[atomicAdd(rest_count.count, 1u)] = i;

@@ -1,7 +1,8 @@
 #include "camera.hlsl"
 #include "cull.hlsl"
 
-Texture2D<float> hzb[2];
+Texture2D<float> hzb_left;
+Texture2D<float> hzb_right;
 ConstantBuffer<CameraData> camera;
 StructuredBuffer<Instance> instances;
 RWStructuredBuffer<uint> list;
@@ -17,7 +18,7 @@ void CSMain(uint3 id : SV_DispatchThreadID) {
     if (i >= count) { return; }
     float4 sphere = instances[i].sphere;
     uint slot;
-    if (may_be_seen(camera.before, camera.place.xyz, sphere, hzb[0]) || may_be_seen(camera.before, camera.place.xyz, sphere, hzb[1])) {
+    if (may_be_seen(camera.before, camera.place.xyz, sphere, hzb_left, hzb_left_st) || may_be_seen(camera.before, camera.place.xyz, sphere, hzb_right, hzb_right_st)) {
         InterlockedAdd(args[1], 1, slot);
         list[slot] = i;
     } else {

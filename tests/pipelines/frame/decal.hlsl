@@ -1,4 +1,5 @@
 #include "include/rotation.hlsl"
+#include "found.hlsl"
 #include "camera.hlsl"
 
 ConstantBuffer<CameraData> camera;
@@ -25,11 +26,9 @@ Varyings VSMain(uint number : SV_VertexID, uint instance : SV_InstanceID) {
 }
 
 Targets PSMain(Varyings it) {
-    float2 extent;
-    depth.GetDimensions(extent.x, extent.y);
     float2 place = frag_coord(it.position).xy;
     float d = depth.Load(int3(place, 0));
-    float4 world = mul(camera.clip_to_world, float4(place / extent * 2.0 - 1.0, d, 1.0));
+    float4 world = mul(camera.clip_to_world, float4(place / float2(used_of(depth, depth_st)) * 2.0 - 1.0, d, 1.0));
     float3 local = world.xyz / world.w - it.center;
     if (any(abs(local) > 0.5)) { discard; }
     Targets targets;

@@ -1,4 +1,5 @@
 #include "include/rotation.hlsl"
+#include "found.hlsl"
 #include "scene.hlsl"
 
 [[vk::binding(0, 2)]] Texture2D base_color_texture;
@@ -16,9 +17,7 @@ struct Varyings {
 
 float4 PSMain(Varyings it) : SV_Target0 {
     float4 base = objects[it.object_index].base_color * base_color_texture.Sample(base_color_sampler, it.texture_uv);
-    float2 extent;
-    behind.GetDimensions(extent.x, extent.y);
-    float2 uv = frag_coord(it.position).xy / (2.0 * extent) + normalize(it.world_normal).xy * 0.03;
-    float3 seen = behind.SampleLevel(smooth, uv, 1.5).rgb;
-    return float4(seen * (1.0 - base.a) + base.rgb * base.a * 0.5, 1.0);
+    float2 uv = frag_coord(it.position).xy / (2.0 * float2(used_of(behind, behind_st))) + normalize(it.world_normal).xy * 0.03;
+    float4 seen = lerp(found_in_level(behind, smooth, behind_st, uv, 1), found_in_level(behind, smooth, behind_st, uv, 2), 0.5);
+    return float4(seen.rgb * (1.0 - base.a) + base.rgb * base.a * 0.5, 1.0);
 }

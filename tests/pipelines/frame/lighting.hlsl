@@ -1,3 +1,4 @@
+#include "found.hlsl"
 #include "scene.hlsl"
 
 Texture2D albedo;
@@ -15,7 +16,7 @@ StructuredBuffer<uint2> grid;
 StructuredBuffer<uint> items;
 
 float4 PSMain([[vk::location(0)]] float2 uv : TEXCOORD0) : SV_Target0 {
-    float d = depth.SampleLevel(near, uv, 0);
+    float d = found_in(depth, near, depth_st, uv);
     float4 world = mul(view.sight[eye_index].clip_to_world, float4(uv * 2.0 - 1.0, d, 1.0));
     float lit = 0.0;
     float3 place = world.xyz / max(world.w, 1e-9);
@@ -26,9 +27,9 @@ float4 PSMain([[vk::location(0)]] float2 uv : TEXCOORD0) : SV_Target0 {
             break;
         }
     }
-    float3 sum = lights[0].sun_radiance * lit * 0.6 + lights[0].ambient_radiance * ao.SampleLevel(smooth, uv, 0);
+    float3 sum = lights[0].sun_radiance * lit * 0.6 + lights[0].ambient_radiance * found_in(ao, smooth, ao_st, uv);
     uint2 range = grid[uint(uv.x * 15.99) + 16 * uint(uv.y * 8.99)];
     for (uint n = 0; n < range.y; ++n) { sum += lights_of_engine[2 * items[range.x + n] + 1].rgb; }
-    return float4(albedo.SampleLevel(near, uv, 0).rgb * sum + emissive.SampleLevel(near, uv, 0).rgb
-        + reflection.SampleLevel(smooth, uv, 0).rgb + 1e-6 * normal.SampleLevel(near, uv, 0).rgg, 1.0);
+    return float4(found_in(albedo, near, albedo_st, uv).rgb * sum + found_in(emissive, near, emissive_st, uv).rgb
+        + found_in(reflection, smooth, reflection_st, uv).rgb + 1e-6 * found_in(normal, near, normal_st, uv).rgg, 1.0);
 }

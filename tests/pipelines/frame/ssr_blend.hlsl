@@ -1,3 +1,5 @@
+#include "found.hlsl"
+
 Texture2D now;
 Texture2D before;
 Texture2D<float2> velocity;
@@ -5,5 +7,5 @@ SamplerState near;
 SamplerState smooth;
 
 float4 PSMain([[vk::location(0)]] float2 uv : TEXCOORD0) : SV_Target0 {
-    return lerp(before.SampleLevel(smooth, uv + velocity.SampleLevel(near, uv, 0), 0), now.SampleLevel(near, uv, 0), 0.1);
+    return lerp(found_in(before, smooth, before_st, uv + found_in(velocity, near, velocity_st, uv)), found_in(now, near, now_st, uv), 0.1);
 }

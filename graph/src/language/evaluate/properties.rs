@@ -26,7 +26,10 @@ pub(crate) fn of(image: &Image, scope: &ScopeValues<'_>) -> Result<Properties, D
     let depth = if let ImageShape::D3(depth) = image.shape.value { depth } else { 1 };
     let mips = match &image.mips.value {
         Mips::Count(count) => Some(*count),
-        Mips::Full => area.map(|area| (area.extent[0] | area.extent[1] | depth).max(1).ilog2() + 1),
+        Mips::Full => area.map(|area| {
+            let [width, height] = area.allocated.unwrap_or(area.extent);
+            (width | height | depth).max(1).ilog2() + 1
+        }),
         Mips::Like(of) => followed(of).mips,
     };
     Ok(Properties { area, mips, layers, samples })

@@ -81,6 +81,33 @@ fn whatever_part_is_in_use_a_plan_differs_in_values_alone_and_takes_the_same_mem
 }
 
 #[test]
+fn do_10_all_levels_are_those_of_the_greatest_factor_in_expressions_too() {
+    let frame = |scale: &str| {
+        let text = r#"Pipeline(
+            version: 1,
+            settings: [(name: "scale", value: Number(default: 1.0, min: 0.1, max: 1.0))],
+            images: [
+                (name: "chain", format: R8_UNORM, size: Dynamic(by: "scale", up_to: 1.0), mips: Full),
+                (name: "screen", format: Output, size: Output),
+            ],
+            passes: [
+                (name: "first", draw: FullScreen("plain"), color: [(image: "chain", mip: 0)]),
+                (name: "down", repeat: ("i", "mips(chain) - 1"), draw: FullScreen("copy"),
+                    sample: {"source": (image: "chain", mip: "i", filter: Nearest)}, color: [(image: "chain", mip: "i + 1")]),
+                (name: "show", draw: FullScreen("copy"), sample: {"source": (image: "chain", mip: "mips(chain) - 1")}, color: ["screen"]),
+            ],
+            outputs: ["screen"],
+        )"#;
+        right(text, &Inputs { set: &set(&[("scale", scale)]), output_extent: [64, 36], ..INPUTS })
+    };
+    let whole = planned(&frame("1"));
+    assert_eq!((whole.images[0].mips, frame("1").passes.len()), (7, 1 + 6 + 1));
+    for scale in ["0.5", "0.1"] {
+        assert_eq!(whole.differs_beyond_values(&planned(&frame(scale))), None, "{scale}");
+    }
+}
+
+#[test]
 fn a_part_is_two_texels_wide_and_high_at_least_where_there_is_room() {
     let text = r#"Pipeline(
         version: 1,
