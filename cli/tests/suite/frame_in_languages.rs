@@ -41,7 +41,7 @@ fn in_slang(hlsl: &str) -> String {
         .replace("SV_VertexID", "SV_VulkanVertexID")
         .replace("SV_InstanceID", "SV_VulkanInstanceID")
         .replace("bool may_be_seen", "[ForceInline]\nbool may_be_seen");
-    for own in ["camera", "scene", "cull", "gpu_vertex", "pyramid", "particle"] {
+    for own in ["camera", "scene", "cull", "gpu_vertex", "pyramid", "particle", "found"] {
         text = text.replace(&format!("#include \"{own}.hlsl\""), &format!("#include \"{own}.slang\""));
     }
     text
