@@ -1,13 +1,15 @@
 //! Frames: planned, drawn, submitted among the program's own work, or recorded into its command buffers.
 
 use crate::arguments::{Structure, list, optional_output, reference, structure, text};
-use crate::passes::Callback;
+use crate::passes::{Callback, FramewrightDraw};
 use crate::renderer::{FramewrightChange, FramewrightRenderer, State, with};
 use crate::status::{FramewrightStatus, Problem};
+use framewright::graph::frame::Cascade;
 use framewright::vulkan::ash::vk;
 use framewright::vulkan::{Error, Executor};
 use framewright::{
-    Change, CustomRecorder, DispatchRecorder, Draw, DrawSource, Recorder, SceneDrawSource, SemaphorePoint, Submission,
+    Change, CustomRecorder, DispatchRecorder, Draw, DrawList, DrawSource, Recorder, SceneDrawSource, SemaphorePoint,
+    Submission,
 };
 use std::ffi::c_char;
 use std::ptr;
@@ -78,10 +80,11 @@ struct Source<'s> {
 
 impl DrawSource for Source<'_> {
     fn record(&mut self, draw: Draw, recorder: &mut Recorder<'_>) -> Result<u32, Error> {
-        match (&mut self.scene, &self.callback) {
-            (_, Some(callback)) if draw.is_custom() => callback.inside(recorder),
-            (Some(scene), _) => scene.record(draw, recorder),
-            (None, _) => Err(no_scene(recorder.pass())),
+        match (&mut self.scene, &self.callback, kind(draw)) {
+            (_, Some(callback), Some(kind @ FramewrightDraw::Custom)) => callback.inside(kind, recorder),
+            (Some(scene), _, _) => scene.record(draw, recorder),
+            (None, Some(callback), Some(kind)) => callback.inside(kind, recorder),
+            (None, _, _) => Err(no_scene(recorder.pass())),
         }
     }
 
@@ -101,6 +104,20 @@ impl DrawSource for Source<'_> {
             }
         }
     }
+}
+
+/// What the program records of a draw, if it may; of other draws a scene brings along what their shaders see.
+fn kind(draw: Draw) -> Option<FramewrightDraw> {
+    Some(match draw {
+        Draw::Custom => FramewrightDraw::Custom,
+        Draw::Objects(DrawList::Opaque) => FramewrightDraw::Opaque,
+        Draw::Objects(DrawList::Masked) => FramewrightDraw::Masked,
+        Draw::Objects(DrawList::Transparent) => FramewrightDraw::Transparent,
+        Draw::Casters(Cascade { list: DrawList::Masked, .. }) => FramewrightDraw::MaskedCasters,
+        Draw::Casters(_) => FramewrightDraw::OpaqueCasters,
+        Draw::Sky => FramewrightDraw::Sky,
+        Draw::FullScreen | Draw::Vertices { .. } | Draw::Indirect => return None,
+    })
 }
 
 fn no_scene(pass: &str) -> Error {

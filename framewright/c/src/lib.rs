@@ -45,8 +45,9 @@ pub use images::{
 };
 pub use last_error::{FramewrightMistake, framewright_last_error, framewright_last_mistake};
 pub use passes::{
-    FramewrightPass, FramewrightPassImage, FramewrightRecord, FramewrightResources, framewright_pass_buffer,
-    framewright_pass_image,
+    FramewrightDraw, FramewrightEye, FramewrightEyeForm, FramewrightEyeTarget, FramewrightFormats, FramewrightPass,
+    FramewrightPassImage, FramewrightRecord, FramewrightResources, framewright_pass_buffer, framewright_pass_draw,
+    framewright_pass_image, framewright_renderer_both_eyes, framewright_renderer_formats,
 };
 pub use renderer::{
     FramewrightChange, FramewrightFacts, FramewrightFeature, FramewrightRenderer, FramewrightRendererOptions,
