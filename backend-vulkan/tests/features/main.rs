@@ -10,6 +10,7 @@ mod adopted;
 mod allocations;
 mod bindless;
 mod blending;
+mod both_eyes;
 mod breadcrumbs;
 mod cadence;
 mod clear_values;

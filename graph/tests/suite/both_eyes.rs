@@ -265,7 +265,7 @@ fn what_the_program_records_for_both_eyes_reaches_both_parts() {
     for (stereo, form) in MODES {
         let mut frame = frame(stereo, form);
         custom(&mut frame.passes[2], true);
-        let outside = transfers("outside", Work::Custom { callback: "it".into() }, &[(SCREEN, false), (SCREEN, true)]);
+        let outside = transfers("outside", Work::Custom { callback: "it".into() }, &[(SCREEN, false)]);
         frame.passes.push(Pass { both_eyes: true, ..outside });
         let plan = compiled(&frame);
         assert_eq!(verify(&plan), [], "{stereo:?}: {}", plan.tree());
