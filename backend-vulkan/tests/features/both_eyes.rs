@@ -111,8 +111,7 @@ impl Engine<'_> {
             let sets = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
             let sets = raw.create_descriptor_set_layout(&sets, None).expect("a layout");
             let layouts = [sets];
-            let layout =
-                vk::PipelineLayoutCreateInfo::default().set_layouts(&layouts).push_constant_ranges(&pushed);
+            let layout = vk::PipelineLayoutCreateInfo::default().set_layouts(&layouts).push_constant_ranges(&pushed);
             let layout = raw.create_pipeline_layout(&layout, None).expect("a layout");
             let stage = stage(vk::ShaderStageFlags::COMPUTE, module);
             let info = vk::ComputePipelineCreateInfo::default().stage(stage).layout(layout);
@@ -135,8 +134,7 @@ impl Engine<'_> {
 
     /// Makes the pipeline of a pass before the first frame.
     fn prepare(&mut self, executor: &Executor, pass: &str) {
-        let (formats, way) =
-            (executor.formats(pass).expect("it is in a scope"), Way::of(executor.both_eyes(pass)));
+        let (formats, way) = (executor.formats(pass).expect("it is in a scope"), Way::of(executor.both_eyes(pass)));
         let raw = self.device.raw();
         let modules = [
             module(self.device, shaderc::ShaderKind::Vertex, &way.vertices()),
@@ -151,10 +149,7 @@ impl Engine<'_> {
         let raster = vk::PipelineRasterizationStateCreateInfo::default().line_width(1.0);
         let samples = vk::PipelineMultisampleStateCreateInfo::default().rasterization_samples(formats.samples);
         let all = vk::ColorComponentFlags::RGBA;
-        let blends = vec![
-            vk::PipelineColorBlendAttachmentState::default().color_write_mask(all);
-            formats.color.len()
-        ];
+        let blends = vec![vk::PipelineColorBlendAttachmentState::default().color_write_mask(all); formats.color.len()];
         let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&blends);
         let dynamic = [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
         let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic);

@@ -37,6 +37,7 @@ mod presenting;
 mod program_sets;
 mod queues;
 mod resolves;
+mod seen_vertices;
 mod state;
 mod stray_vertices;
 mod submitting;

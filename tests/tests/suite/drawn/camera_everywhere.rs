@@ -108,7 +108,8 @@ fn passes_of_all_kinds_see_the_camera_of_their_eye_in_every_way() -> Result<(), 
         let seen = seen(device, &scene, ways)?;
         for (eye, side) in [-0.5, 0.5].into_iter().enumerate() {
             let right = if ways.stereo == Stereo::Off { 0.0 } else { side * EYES_APART };
-            for (what, texels) in ["computed", "drawn", "by vertices", "by counts"].into_iter().zip(&seen.towards[eye]) {
+            for (what, texels) in ["computed", "drawn", "by vertices", "by counts"].into_iter().zip(&seen.towards[eye])
+            {
                 assert_eq!(texels.len(), (EXTENT[0] * EXTENT[1]) as usize);
                 for (pixel, found) in texels.iter().enumerate() {
                     let wanted = expected(&scene.camera, pixel, right);
