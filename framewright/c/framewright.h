@@ -518,20 +518,6 @@ FramewrightStatus framewright_pass_draw(const FramewrightPass *pass,
                                         uint32_t first_instance,
                                         uint32_t instance_count);
 
-// Tells what pipelines must fit that the program binds itself in the pass of this name. It begins with a plan, as a frame does. What it
-// points to lives until the next call of this function for the renderer, or until it is freed. `FRAMEWRIGHT_STATUS_MISUSE`: no rendering
-// scope has such a pass.
-FramewrightStatus framewright_renderer_formats(FramewrightRenderer *renderer,
-                                               const char *pass,
-                                               FramewrightFormats *formats);
-
-// Tells how the pass of this name is recorded for both eyes at once: the FramewrightStereo, and how images hold both eyes' parts. Both are
-// 0 if it isn't. It begins with a plan, as a frame does. `form` may be NULL.
-FramewrightStatus framewright_renderer_both_eyes(FramewrightRenderer *renderer,
-                                                 const char *pass,
-                                                 uint32_t *stereo,
-                                                 FramewrightEyeForm *form);
-
 // Reads the pipeline in the file `pipeline`; where there is none, the shipped one of that name. Until it is told otherwise, the frame
 // has 1280×720 texels, and the scene may hold everything. `options` may be NULL.
 FramewrightStatus framewright_renderer_open(const FramewrightDevice *device,
@@ -653,6 +639,20 @@ FramewrightStatus framewright_renderer_record_into(FramewrightRenderer *renderer
 
 // Takes back a frame that was recorded into a command buffer, which was not and will not be submitted.
 FramewrightStatus framewright_renderer_discard(FramewrightRenderer *renderer, uint64_t frame);
+
+// Tells what pipelines must fit that the program binds itself in the pass of this name. It begins with a plan, as a frame does. What it
+// points to lives until the next call of this function for the renderer, or until it is freed. `FRAMEWRIGHT_STATUS_MISUSE`: no rendering
+// scope has such a pass.
+FramewrightStatus framewright_renderer_formats(FramewrightRenderer *renderer,
+                                               const char *pass,
+                                               FramewrightFormats *formats);
+
+// Tells how the pass of this name is recorded for both eyes at once: the FramewrightStereo, and how images hold both eyes' parts. Both are
+// 0 if it isn't. It begins with a plan, as a frame does. `form` may be NULL.
+FramewrightStatus framewright_renderer_both_eyes(FramewrightRenderer *renderer,
+                                                 const char *pass,
+                                                 uint32_t *stereo,
+                                                 FramewrightEyeForm *form);
 
 // Tells how an image is created that can be imported for the external image `name`: an output, or one that the pipeline calls
 // `Imported`. It begins with a plan, as a frame does. What it points to lives as long as the device.

@@ -310,7 +310,9 @@ impl Drop for Engine<'_> {
 
 fn module(device: &Device, kind: shaderc::ShaderKind, text: &str) -> vk::ShaderModule {
     let compiler = shaderc::Compiler::new().expect("a compiler");
-    let spirv = compiler.compile_into_spirv(text, kind, "shader", "main", None).expect("it compiles");
+    let mut options = shaderc::CompileOptions::new().expect("options");
+    options.set_target_env(shaderc::TargetEnv::Vulkan, shaderc::EnvVersion::Vulkan1_3 as u32);
+    let spirv = compiler.compile_into_spirv(text, kind, "shader", "main", Some(&options)).expect("it compiles");
     let info = vk::ShaderModuleCreateInfo::default().code(spirv.as_binary());
     // SAFETY: the device lives, and the SPIR-V comes from the compiler.
     unsafe { device.raw().create_shader_module(&info, None) }.expect("a module")

@@ -1,8 +1,7 @@
 //! Passes that the program records.
 
-use crate::arguments::{optional_output, output, reference, text};
+use crate::arguments::{output, reference, text};
 use crate::last_error::{self, call};
-use crate::renderer::{FramewrightRenderer, with};
 use crate::status::{FramewrightStatus, Problem};
 use framewright::graph::frame::{Eye, EyeForm, Stereo};
 use framewright::vulkan::Error;
@@ -327,7 +326,7 @@ fn form(form: Option<EyeForm>) -> FramewrightEyeForm {
 }
 
 /// The number of a FramewrightStereo, and the form of images.
-fn both(both: Option<(Stereo, EyeForm)>) -> (u32, FramewrightEyeForm) {
+pub(crate) fn both(both: Option<(Stereo, EyeForm)>) -> (u32, FramewrightEyeForm) {
     let stereo = both.map_or(Stereo::Off, |(stereo, _)| stereo);
     (stereo as u32, form(both.map(|(_, form)| form)))
 }
@@ -402,44 +401,4 @@ pub unsafe extern "C" fn framewright_pass_draw(
         let drawn = resources(pass)?.draw(vertices, range(first_instance, instance_count, "instances")?);
         drawn.then_some(()).ok_or_else(|| Problem::Misuse("the pass stands outside of rendering scopes".to_owned()))
     })
-}
-
-/// Tells what pipelines must fit that the program binds itself in the pass of this name. It begins with a plan, as a frame does. What it
-/// points to lives until the next call of this function for the renderer, or until it is freed. `FRAMEWRIGHT_STATUS_MISUSE`: no rendering
-/// scope has such a pass.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn framewright_renderer_formats(
-    renderer: *mut FramewrightRenderer,
-    pass: *const c_char,
-    formats: *mut FramewrightFormats,
-) -> FramewrightStatus {
-    // SAFETY: the caller's word.
-    unsafe {
-        with(renderer, |state| {
-            let name = text(pass, "pass")?;
-            let found = state.executor()?.formats(name);
-            let found =
-                found.ok_or_else(|| Problem::Misuse(format!("no rendering scope has a pass of the name `{name}`")))?;
-            output(formats, "formats", FramewrightFormats::of(state.formats.insert(found)))
-        })
-    }
-}
-
-/// Tells how the pass of this name is recorded for both eyes at once: the FramewrightStereo, and how images hold both eyes' parts. Both are
-/// 0 if it isn't. It begins with a plan, as a frame does. `form` may be NULL.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn framewright_renderer_both_eyes(
-    renderer: *mut FramewrightRenderer,
-    pass: *const c_char,
-    stereo: *mut u32,
-    form: *mut FramewrightEyeForm,
-) -> FramewrightStatus {
-    // SAFETY: the caller's word.
-    unsafe {
-        with(renderer, |state| {
-            let (found, form_of) = both(state.executor()?.both_eyes(text(pass, "pass")?));
-            optional_output(form, form_of);
-            output(stereo, "stereo", found)
-        })
-    }
 }
