@@ -70,7 +70,8 @@ pub use probe::Canary;
 /// The handles of windows and displays, for programs that show pictures.
 pub use raw_window_handle;
 pub use record::{
-    CustomImage, CustomRecorder, DispatchRecorder, DrawSource, FrameReport, IndexType, PassReport, Recorder, StepReport,
+    CustomImage, CustomRecorder, DispatchRecorder, DrawSource, EyeTarget, FrameReport, IndexType, PassReport, Recorder,
+    StepReport,
 };
 pub use resources::{
     BindGroup, Buffer, BufferUsage, DynamicBuffer, ProgramBuffer, ProgramView, RawSet, Resource, Texture,

@@ -37,6 +37,44 @@ typedef enum {
     FRAMEWRIGHT_STATUS_PANIC = 7,
 } FramewrightStatus;
 
+// What a pass draws that the program records.
+typedef enum {
+    // What the program knows by the name behind `custom`; also what it records outside of rendering scopes.
+    FRAMEWRIGHT_DRAW_CUSTOM = 0,
+    // Opaque objects.
+    FRAMEWRIGHT_DRAW_OPAQUE = 1,
+    // Objects with holes.
+    FRAMEWRIGHT_DRAW_MASKED = 2,
+    // Objects that let light through.
+    FRAMEWRIGHT_DRAW_TRANSPARENT = 3,
+    // Opaque objects as the sun sees them.
+    FRAMEWRIGHT_DRAW_OPAQUE_CASTERS = 4,
+    // Objects with holes as the sun sees them.
+    FRAMEWRIGHT_DRAW_MASKED_CASTERS = 5,
+    // The sky.
+    FRAMEWRIGHT_DRAW_SKY = 6,
+} FramewrightDraw;
+
+// An eye.
+typedef enum {
+    // None of two: there is one, or both are meant.
+    FRAMEWRIGHT_EYE_NONE = 0,
+    // The left one.
+    FRAMEWRIGHT_EYE_LEFT = 1,
+    // The right one.
+    FRAMEWRIGHT_EYE_RIGHT = 2,
+} FramewrightEye;
+
+// How one image holds both eyes' parts, the left one's first.
+typedef enum {
+    // It doesn't: it is one picture.
+    FRAMEWRIGHT_EYE_FORM_NONE = 0,
+    // In two layers.
+    FRAMEWRIGHT_EYE_FORM_LAYERS = 1,
+    // Side by side.
+    FRAMEWRIGHT_EYE_FORM_HALVES = 2,
+} FramewrightEyeForm;
+
 // What became another one when a frame was prepared.
 typedef enum {
     // Nothing: nothing was planned.
@@ -82,7 +120,7 @@ typedef struct FramewrightFeatures FramewrightFeatures;
 // A pipeline that is drawn frame after frame. One thread at a time uses it; it need not be the same one.
 typedef struct FramewrightRenderer FramewrightRenderer;
 
-// What a pass outside of a rendering scope accesses.
+// What a pass accesses.
 typedef struct FramewrightResources FramewrightResources;
 
 // A scene in memory. Any thread may use it, and several at once.
@@ -164,17 +202,48 @@ typedef struct {
     const char *helper;
 } FramewrightAdoptedDevice;
 
-// A custom pass that is to be recorded. It lives until its callback returns.
+// Where the picture of an eye lies in what a pass draws into.
+typedef struct {
+    // The viewport of all of it.
+    VkViewport viewport;
+    // The scissor of the same: what lies outside is the other eye's.
+    VkRect2D scissor;
+    // The layer of the attachments. With a view mask the device chooses it, and `gl_ViewIndex` is its number; without one, a vertex shader
+    // does so (`gl_Layer`).
+    uint32_t layer;
+} FramewrightEyeTarget;
+
+// What pipelines of the program's own must fit to be bound in a pass within a rendering scope.
+typedef struct {
+    // Formats of the colour attachments.
+    const VkFormat *color;
+    // How many there are.
+    uint32_t color_count;
+    // The format of the depth attachment; `VK_FORMAT_UNDEFINED` if there is none.
+    VkFormat depth;
+    // The format of the stencil attachment; `VK_FORMAT_UNDEFINED` if there is none.
+    VkFormat stencil;
+    // Samples of each attachment: a `VkSampleCountFlagBits`.
+    VkSampleCountFlags samples;
+    // Views that are drawn at once, a bit for each; 0 where there are none.
+    uint32_t view_mask;
+    // For each colour attachment the location at which the pass writes it (`VkRenderingAttachmentLocationInfoKHR`); NULL: its own number.
+    const uint32_t *locations;
+    // For each colour attachment the number of its input attachment (`VkRenderingInputAttachmentIndexInfoKHR`); NULL: its own number.
+    const uint32_t *inputs;
+} FramewrightFormats;
+
+// A pass that is to be recorded. It lives until its callback returns.
 typedef struct {
     // The name of the pass.
     const char *name;
-    // What the pipeline calls its work: the name behind `custom`.
+    // What the pipeline calls its work: the name behind `custom`. Of other draws, the name of their shader.
     const char *custom;
     // Where it is recorded. Its barriers are there already.
     VkCommandBuffer commands;
     // Whether it stands inside a rendering scope with the pass's targets, which is left open; else it stands outside of one.
     uint32_t in_scope;
-    // Width of the targets; 0 outside of a scope.
+    // Width of the targets, of two eyes of one's; 0 outside of a scope.
     uint32_t width;
     // Height of the targets; 0 outside of a scope.
     uint32_t height;
@@ -184,6 +253,18 @@ typedef struct {
     const FramewrightResources *resources;
     // The queue family that the commands are for: that for graphics, or that for compute if the pipeline says `queue: Any`.
     uint32_t queue_family;
+    // What it draws.
+    FramewrightDraw draw;
+    // The eye that it is recorded for, where it is recorded for one after the other.
+    FramewrightEye eye;
+    // The FramewrightStereo in which it is recorded for both eyes at once; `FRAMEWRIGHT_STEREO_OFF`: it isn't.
+    uint32_t both_eyes;
+    // How images hold both eyes' parts that it is recorded for.
+    FramewrightEyeForm eye_form;
+    // Inside a scope for both eyes, where each eye's picture lies, the left one's first; else 0.
+    FramewrightEyeTarget eye_targets[2];
+    // Inside a scope, what pipelines of the program's must fit; NULL outside of one.
+    const FramewrightFormats *formats;
 } FramewrightPass;
 
 // An image that a pass accesses.
@@ -200,6 +281,10 @@ typedef struct {
     uint32_t depth;
     // The layout that it is in, and is left in.
     VkImageLayout layout;
+    // How it holds both eyes' parts: in two layers, which are in `range`, or side by side, of which `width` and `height` are one's.
+    FramewrightEyeForm eye_form;
+    // The eye whose part alone is meant, of an image that holds both eyes'.
+    FramewrightEye eye;
 } FramewrightPassImage;
 
 // The layout of a descriptor set that the program makes and binds itself.
@@ -238,7 +323,7 @@ typedef struct {
     FramewrightNames shader_compilers;
 } FramewrightRendererOptions;
 
-// Records a custom pass: commands that touch what the pipeline says that the pass touches, and what is the program's own. Returns 0 if it
+// Records a pass: commands that touch what the pipeline says that the pass touches, and what is the program's own. Returns 0 if it
 // doesn't know the pass, which is an error of the frame. No function is called for the renderer meanwhile, and no
 // exception or longjmp leaves it.
 typedef uint32_t (*FramewrightRecord)(void *context, const FramewrightPass *pass);
@@ -419,11 +504,19 @@ const char *framewright_scene_mistake(const FramewrightScene *scene,
 // Frees the handle of a scene. Renderers that show it go on.
 void framewright_scene_free(FramewrightScene *scene);
 
-// Tells an image that a pass outside of a rendering scope accesses, by the pipeline's name.
+// Tells an image that a pass accesses, by the pipeline's name.
 FramewrightStatus framewright_pass_image(const FramewrightPass *pass, const char *name, FramewrightPassImage *image);
 
-// Tells a buffer that a pass outside of a rendering scope accesses, by the pipeline's name.
+// Tells a buffer that a pass accesses, by the pipeline's name.
 FramewrightStatus framewright_pass_buffer(const FramewrightPass *pass, const char *name, VkBuffer *buffer);
+
+// Draws consecutive vertices of a pass inside a rendering scope whose shader is the pipeline's, for both eyes where the pass is for both.
+// Shaders see `first_instance` as their first `gl_InstanceIndex`. What is misused, as a set that isn't bound, is the error of the frame.
+FramewrightStatus framewright_pass_draw(const FramewrightPass *pass,
+                                        uint32_t first_vertex,
+                                        uint32_t vertex_count,
+                                        uint32_t first_instance,
+                                        uint32_t instance_count);
 
 // Reads the pipeline in the file `pipeline`; where there is none, the shipped one of that name. Until it is told otherwise, the frame
 // has 1280×720 texels, and the scene may hold everything. `options` may be NULL.
@@ -451,7 +544,7 @@ FramewrightStatus framewright_renderer_set_extent(FramewrightRenderer *renderer,
 FramewrightStatus framewright_renderer_set_scene(FramewrightRenderer *renderer,
                                                  const FramewrightScene *scene);
 
-// Has `record` record custom passes, and gives it `context`; NULL: nobody does.
+// Has `record` record custom passes, and draws of objects and sky where no scene was set, and gives it `context`; NULL: nobody does.
 FramewrightStatus framewright_renderer_set_recorder(FramewrightRenderer *renderer,
                                                     FramewrightRecord record,
                                                     void *context);
@@ -546,6 +639,20 @@ FramewrightStatus framewright_renderer_record_into(FramewrightRenderer *renderer
 
 // Takes back a frame that was recorded into a command buffer, which was not and will not be submitted.
 FramewrightStatus framewright_renderer_discard(FramewrightRenderer *renderer, uint64_t frame);
+
+// Tells what pipelines must fit that the program binds itself in the pass of this name. It begins with a plan, as a frame does. What it
+// points to lives until the next call of this function for the renderer, or until it is freed. `FRAMEWRIGHT_STATUS_MISUSE`: no rendering
+// scope has such a pass.
+FramewrightStatus framewright_renderer_formats(FramewrightRenderer *renderer,
+                                               const char *pass,
+                                               FramewrightFormats *formats);
+
+// Tells how the pass of this name is recorded for both eyes at once: the FramewrightStereo, and how images hold both eyes' parts. Both are
+// 0 if it isn't. It begins with a plan, as a frame does. `form` may be NULL.
+FramewrightStatus framewright_renderer_both_eyes(FramewrightRenderer *renderer,
+                                                 const char *pass,
+                                                 uint32_t *stereo,
+                                                 FramewrightEyeForm *form);
 
 // Tells how an image is created that can be imported for the external image `name`: an output, or one that the pipeline calls
 // `Imported`. It begins with a plan, as a frame does. What it points to lives as long as the device.

@@ -137,6 +137,12 @@ pub(crate) fn extent([width, height, depth]: [u32; 3]) -> vk::Extent3D {
     vk::Extent3D { width, height, depth }
 }
 
+/// Left and upper edge, width and height.
+pub(crate) fn rectangle([x, y, width, height]: [u32; 4]) -> vk::Rect2D {
+    let offset = vk::Offset2D { x: x.cast_signed(), y: y.cast_signed() };
+    vk::Rect2D { offset, extent: vk::Extent2D { width, height } }
+}
+
 /// A colour attachment's clear value in the form that its components need. The format holds it.
 pub(crate) fn clear_color(format: Format, value: [f64; 4]) -> vk::ClearColorValue {
     match format.numeric() {

@@ -16,7 +16,7 @@ use crate::record::{DrawSource, FrameReport, GuardedSource};
 use crate::resources::{ProgramSets, RawSet};
 use crate::shaders::ShaderLibrary;
 use ash::vk;
-use framewright_graph::frame::{NoTextures, Textures};
+use framewright_graph::frame::{EyeForm, NoTextures, Stereo, Textures};
 use framewright_graph::plan::{BufferId, Plan};
 use std::any::Any;
 use std::sync::Arc;
@@ -288,6 +288,17 @@ impl Executor {
             let number = step.work.scope()?.passes.iter().position(|it| *it.name == *pass)?;
             Some(made.draws()[number].state.formats.clone())
         })
+    }
+
+    /// How the pass of this name, in a rendering scope or recorded by the program, is for both eyes at once, and how its images hold both
+    /// eyes' parts; `None` if it is for one eye, or for neither. Known before the first frame, as [`Executor::formats`] is.
+    #[must_use]
+    pub fn both_eyes(&self, pass: &str) -> Option<(Stereo, EyeForm)> {
+        let form = self.plan.steps.iter().find_map(|step| {
+            let found = step.work.passes().iter().find(|it| *it.name == *pass)?;
+            Some(step.work.scope().map_or_else(|| self.plan.both_eyes(found), |scope| self.plan.eyes(scope)))
+        });
+        form.flatten().map(|form| (self.plan.stereo, form))
     }
 
     /// Makes ready for the next frame, which uses these images of the program's, and returns its number among its own.

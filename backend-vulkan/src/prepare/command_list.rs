@@ -146,6 +146,8 @@ pub(crate) struct OwnDraw {
     pub(crate) offsets: Vec<vk::DeviceSize>,
     pub(crate) indices: Option<vk::Buffer>,
     pub(crate) counts: DrawCounts,
+    /// Whether the shader reads what the draw source brings along.
+    pub(crate) supplied: bool,
 }
 
 /// How much is drawn.

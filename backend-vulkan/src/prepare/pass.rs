@@ -104,7 +104,8 @@ impl PreparedDraw {
         let own = |counts| {
             let vertices = self.vertices.iter().copied().map(buffer).collect();
             let offsets = vec![0; self.vertices.len()];
-            DrawnVertices::Own(Box::new(OwnDraw { vertices, offsets, indices: self.indices.map(buffer), counts }))
+            let (indices, supplied) = (self.indices.map(buffer), self.state.supplied.are_read());
+            DrawnVertices::Own(Box::new(OwnDraw { vertices, offsets, indices, counts, supplied }))
         };
         let vertices = match (self.draw.counts(), self.indirect) {
             (Some([count, instances]), _) => own(DrawCounts::Direct(count, instances)),
@@ -204,9 +205,11 @@ pub(super) fn prepare_dispatch(
     let shader = shaders
         .compute(&pass.shader, &variant(plan, pass, None)?)
         .map_err(|problem| Error::Shader { name: pass.shader.to_string(), problem })?;
-    // A shader that reads nothing of it isn't held to what the device can bind of it.
-    let reads = shader.interface.bindings.iter().any(|binding| binding.set != PASS_SET);
-    let brought = if reads { shaders.brought_along(None, &pass.shader) } else { DrawInterface::default() };
+    let brought = if reads_supplied(&shader.interface) {
+        shaders.brought_along(None, &pass.shader)
+    } else {
+        DrawInterface::default()
+    };
     check_brought(&brought).map_err(mismatch)?;
     check_program(&shader.interface, shaders.draws()).map_err(mismatch)?;
     let sets = shaders.draws().sets();
@@ -238,7 +241,7 @@ pub(super) fn prepare_draw(
     };
     let indirect = if draw.is_indirect() { Some(indirect(pass).map_err(mismatch)?) } else { None };
     let targets = targets(plan, scope, pass).map_err(mismatch)?;
-    let brought = shaders.brought_along(Some(draw), &pass.shader);
+    let mut brought = shaders.brought_along(Some(draw), &pass.shader);
     let brought_buffers = u32::try_from(brought.vertex_buffers.len()).unwrap_or(u32::MAX);
     let nothing = |sets, formats: ScopeFormats| PreparedDraw {
         draw,
@@ -267,6 +270,9 @@ pub(super) fn prepare_draw(
         }
         other => other.map_err(|problem| Error::Shader { name: pass.shader.to_string(), problem })?,
     };
+    if draw.has_own_vertices() && !reads_supplied(&shader.interface) {
+        brought = DrawInterface::default();
+    }
     let written: Vec<_> = targets.iter().map(|target| &scope.color()[*target]).collect();
     check_brought(&brought).map_err(mismatch)?;
     check_program(&shader.interface, shaders.draws()).map_err(mismatch)?;
@@ -331,6 +337,11 @@ pub(super) fn prepare_draw(
         usual_vertices,
     };
     Ok(PreparedDraw { pipeline, state, vertices, ..nothing(sets, formats) })
+}
+
+/// Whether a shader reads what a draw source brings along. One that reads nothing of it isn't held to what the device can bind of it.
+fn reads_supplied(interface: &ShaderInterface) -> bool {
+    interface.bindings.iter().any(|binding| binding.set != PASS_SET)
 }
 
 /// Where instances are both eyes', their numbers aren't those of the elements of a buffer.

@@ -127,9 +127,7 @@ impl<'f> Canvas<'f> {
         if !self.state.needs_scissor(rectangle) {
             return;
         }
-        let [x, y, width, height] = rectangle;
-        let offset = vk::Offset2D { x: x.cast_signed(), y: y.cast_signed() };
-        let scissor = vk::Rect2D { offset, extent: vk::Extent2D { width, height } };
+        let scissor = convert::rectangle(rectangle);
         // SAFETY: the command buffer is being recorded, the state is dynamic in every pipeline, and it lies within the target.
         unsafe { self.gpu.raw.cmd_set_scissor(self.commands, 0, &[scissor]) };
     }

@@ -6,7 +6,7 @@ use crate::commands::{TransferSide, barriers, copy_between, fill};
 use crate::gpu::Gpu;
 use crate::prepare::{Frame, part};
 use ash::vk;
-use framewright_graph::frame::ParamValue;
+use framewright_graph::frame::{EyeForm, ParamValue, Stereo};
 use framewright_graph::plan::{self, Access, BufferAccess, Queue};
 use framewright_graph::vulkan::{Accesses, FillValue, Stages, name_of};
 
@@ -82,6 +82,15 @@ impl<'f> CustomRecorder<'f> {
     pub fn view(&self) -> Option<&plan::View> {
         let view = self.pass.view?;
         self.frame.plan.views.get(view.0 as usize)
+    }
+
+    /// How the pass is recorded for both eyes at once: `both_eyes` of the pipeline, where the frame is drawn so. Images of each eye then
+    /// hold both eyes' parts ([`CustomImage::eyes`]), and [`CustomRecorder::fill`] and [`CustomRecorder::copy`] reach both. `None`: it is for
+    /// one eye, or touches nothing that is an eye's own.
+    #[must_use]
+    pub fn both_eyes(&self) -> Option<(Stereo, EyeForm)> {
+        let plan = self.frame.plan;
+        plan.both_eyes(self.pass).map(|form| (plan.stereo, form))
     }
 
     /// The number of the frame, as [`Executor::submit`](crate::Executor::submit) returns it.

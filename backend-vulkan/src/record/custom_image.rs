@@ -3,6 +3,7 @@
 use crate::base::convert;
 use crate::prepare::{Frame, part};
 use ash::vk;
+use framewright_graph::frame::{Eye, EyeForm};
 use framewright_graph::plan::{self, Access, BufferAccess};
 use framewright_graph::vulkan::{Accesses, Rotation, Stages, Subresources};
 
@@ -18,6 +19,11 @@ pub struct CustomImage {
     pub extent: [u32; 3],
     /// By how much the picture is turned that it holds, or is to hold; `extent` is that of the turned picture.
     pub rotation: Rotation,
+    /// How it holds both eyes' parts, the left one's first: in two layers, which are in `range`, or side by side, of which `extent` is one.
+    /// `None`: it is one picture.
+    pub eyes: Option<EyeForm>,
+    /// The eye whose part alone is meant, of an image that holds both eyes'; `None`: both, or there is one.
+    pub eye: Option<Eye>,
     /// The layout that it is in and must be left in.
     pub layout: vk::ImageLayout,
     /// The stages that the barriers wait for: those that the pipeline declares in `uses`, else `ALL_COMMANDS`.
@@ -39,6 +45,8 @@ impl CustomImage {
             range: part(plan.image(access.image), access.range),
             extent: frame.extent(access.image, access.range.base_mip),
             rotation: plan.image(access.image).rotation,
+            eyes: plan.image(access.image).eyes,
+            eye: access.eye,
             layout: convert::layout(access.layout),
             stages: access.stages,
             accesses: access.accesses - Accesses::MEMORY_READ - Accesses::MEMORY_WRITE,

@@ -12,7 +12,8 @@ pub trait DrawSource {
     ///
     /// It is called in the frame's order: once for each pass that draws objects, the sky or something of its own ([`Draw::Custom`],
     /// where [`Recorder::shader`] says what). It is also called for full-screen draws whose shader reads what the draw source
-    /// brings along, and for no others. Pipeline, viewport and the pass's own set, if it has bindings, are bound already; face
+    /// brings along, and for draws of a pass's own vertices ([`Draw::Vertices`], [`Draw::Indirect`]) whose shader does: then it only binds,
+    /// and the draw follows by itself. Pipeline, viewport and the pass's own set, if it has bindings, are bound already; face
     /// culling is off and the front face is counter-clockwise. With several frames in flight, the device may still read what
     /// the frame before was drawn from.
     ///

@@ -8,6 +8,7 @@ mod custom;
 mod custom_image;
 mod dispatch;
 mod draw_source;
+mod eye_target;
 mod fragments;
 mod frame_params;
 mod frame_resources;
@@ -24,6 +25,7 @@ pub use custom::CustomRecorder;
 pub use custom_image::CustomImage;
 pub use dispatch::DispatchRecorder;
 pub use draw_source::DrawSource;
+pub use eye_target::EyeTarget;
 pub use recorder::{IndexType, Recorder};
 pub use timing::{FrameReport, PassReport, StepReport};
 

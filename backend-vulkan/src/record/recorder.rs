@@ -3,6 +3,7 @@
 use super::bound_sets::BoundSets;
 use super::canvas::Canvas;
 use super::custom_image::{CustomImage, named_buffer};
+use super::eye_target::EyeTarget;
 use super::frame_resources::HeldResources;
 use crate::base::numbers;
 use crate::gpu::{ScopeFormats, VertexBinding};
@@ -10,7 +11,7 @@ use crate::pipeline::PARTS_STAGES;
 use crate::prepare::{Frame, PassState, PreparedDraw};
 use crate::resources::{BindGroup, Buffer, RawSet};
 use ash::vk;
-use framewright_graph::frame::{EyeForm, ParamValue, Stereo};
+use framewright_graph::frame::{Draw, Eye, EyeForm, ParamValue, Stereo};
 use framewright_graph::plan;
 use framewright_graph::shader::VertexRate;
 use framewright_graph::vulkan::{CullMode, FrontFace, Rotation};
@@ -67,6 +68,13 @@ impl<'f> Recorder<'f> {
     #[must_use]
     pub fn view(&self) -> Option<plan::ViewId> {
         self.plan.view
+    }
+
+    /// The eye that the pass draws for, where it is drawn for one after the other; `None`: there is one, or [`Recorder::both_eyes`] are
+    /// drawn for, or what both share.
+    #[must_use]
+    pub fn eye(&self) -> Option<Eye> {
+        self.frame.plan.views.get(self.plan.view?.0 as usize)?.eye.map(|of| of.eye)
     }
 
     /// The name of the pass's shader. For custom draws it says what is drawn; if there is no shader of that name then no
@@ -256,11 +264,18 @@ impl<'f> Recorder<'f> {
     }
 
     /// How the pass draws for both eyes at once. Each draw of the recorder's own then draws for both eyes. Code that draws
-    /// by [`Recorder::raw`] must do so itself. `None`: the pass draws for one eye, or into images that both eyes share.
+    /// by [`Recorder::raw`] must do so itself: [`Recorder::eye_targets`] says where. `None`: the pass draws for one eye, or into images that both eyes share.
     /// Width, height, viewport and scissor are those of one eye's picture.
     #[must_use]
     pub fn both_eyes(&self) -> Option<(Stereo, EyeForm)> {
         self.canvas.target.eyes
+    }
+
+    /// Where each eye's picture lies in what the pass draws into, the left one's first, for pipelines of the program's own; `None` where
+    /// [`Recorder::both_eyes`] is.
+    #[must_use]
+    pub fn eye_targets(&self) -> Option<[EyeTarget; 2]> {
+        EyeTarget::of_both(self.canvas.target)
     }
 
     /// Says to which rectangle of the upright picture clip space is stretched from now on: its left and upper edge, then its
@@ -386,6 +401,9 @@ impl<'f> Recorder<'f> {
         if let Some(missing) = self.sets.missing() {
             self.misused(|| format!("a draw without {missing}"));
         }
+        if self.plan.draw.is_some_and(Draw::has_own_vertices) {
+            self.misused(|| "a draw beside that of the pass's own vertices, which follows by itself".to_owned());
+        }
         if !self.has_pipeline {
             let shader = &self.plan.shader;
             self.misused(|| format!("a draw without pipeline: there is no shader `{shader}`"));
@@ -413,6 +431,12 @@ impl<'f> Recorder<'f> {
         if let Err(what) = result {
             self.misused(|| what);
         }
+    }
+
+    /// What to draw the pass's own vertices on, with all bound that their shader reads of the draw source; else the first misuse.
+    pub(super) fn bound(self) -> Result<Canvas<'f>, String> {
+        let missing = self.sets.missing().map(|missing| format!("a draw without {missing}"));
+        self.misuse.or(missing).map_or(Ok(self.canvas), Err)
     }
 
     /// How many objects were left out, or the first misuse if there was any.

@@ -58,6 +58,7 @@ impl Recording<'_> {
         };
         let mut canvas = Canvas::new(gpu, commands, &mut self.state, &list.targets[draw.target as usize], draw.faces);
         let begun = missing.and_then(|missing| match (&draw.vertices, missing) {
+            (DrawnVertices::Own(own), _) if own.supplied => canvas.begin(),
             (DrawnVertices::FullScreen | DrawnVertices::Own(_), Some(set)) => {
                 Err(format!("a draw without set {set}, which the program binds itself by `Executor::bind_set`"))
             }
@@ -71,13 +72,19 @@ impl Recording<'_> {
                     unsafe { device.cmd_draw(commands, 3, count, 0, first) };
                 })
             }),
-            DrawnVertices::Own(own) => begun.and_then(|()| draw_own(&mut canvas, own)),
-            DrawnVertices::Source => {
+            DrawnVertices::Own(own) if !own.supplied => begun.and_then(|()| draw_own(&mut canvas, own)),
+            DrawnVertices::Own(_) | DrawnVertices::Source => {
                 let made = &self.prepared.steps[step].draws()[draw.pass as usize];
                 let kept = &mut self.recorded.kept;
                 let mut recorder = Recorder::new(canvas, kept, made, planned(), self.frame, begun);
-                draws = self.source.record(made.draw, &mut recorder)?;
-                recorder.finish().map(|objects| culled = objects)
+                let recorded = self.source.record(made.draw, &mut recorder)?;
+                match &draw.vertices {
+                    DrawnVertices::Own(own) => recorder.bound().and_then(|mut canvas| draw_own(&mut canvas, own)),
+                    DrawnVertices::FullScreen | DrawnVertices::Source => {
+                        draws = recorded;
+                        recorder.finish().map(|objects| culled = objects)
+                    }
+                }
             }
         };
         drawn.map_err(|what| Error::Recording { pass: planned().name.to_string(), what })?;

@@ -228,6 +228,7 @@ fn pass(name: &str, shader: &str, draw: Draw, target: ImageId) -> Pass {
         buffers: Vec::new(),
         local_barrier: false,
         any_queue: false,
+        both_eyes: false,
         merged: None,
     }
 }

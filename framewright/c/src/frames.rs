@@ -1,13 +1,14 @@
 //! Frames: planned, drawn, submitted among the program's own work, or recorded into its command buffers.
 
-use crate::arguments::{Structure, list, optional_output, reference, structure, text};
-use crate::passes::Callback;
+use crate::arguments::{Structure, list, optional_output, output, reference, structure, text};
+use crate::passes::{Callback, FramewrightDraw, FramewrightEyeForm, FramewrightFormats, both};
 use crate::renderer::{FramewrightChange, FramewrightRenderer, State, with};
 use crate::status::{FramewrightStatus, Problem};
 use framewright::vulkan::ash::vk;
 use framewright::vulkan::{Error, Executor};
 use framewright::{
-    Change, CustomRecorder, DispatchRecorder, Draw, DrawSource, Recorder, SceneDrawSource, SemaphorePoint, Submission,
+    Change, CustomRecorder, DispatchRecorder, Draw, DrawKind, DrawList, DrawSource, Recorder, SceneDrawSource,
+    SemaphorePoint, Submission,
 };
 use std::ffi::c_char;
 use std::ptr;
@@ -78,10 +79,11 @@ struct Source<'s> {
 
 impl DrawSource for Source<'_> {
     fn record(&mut self, draw: Draw, recorder: &mut Recorder<'_>) -> Result<u32, Error> {
-        match (&mut self.scene, &self.callback) {
-            (_, Some(callback)) if draw.is_custom() => callback.inside(recorder),
-            (Some(scene), _) => scene.record(draw, recorder),
-            (None, _) => Err(no_scene(recorder.pass())),
+        match (&mut self.scene, &self.callback, kind(draw)) {
+            (_, Some(callback), Some(kind @ FramewrightDraw::Custom)) => callback.inside(kind, recorder),
+            (Some(scene), _, _) => scene.record(draw, recorder),
+            (None, Some(callback), Some(kind)) => callback.inside(kind, recorder),
+            (None, _, _) => Err(no_scene(recorder.pass())),
         }
     }
 
@@ -101,6 +103,20 @@ impl DrawSource for Source<'_> {
             }
         }
     }
+}
+
+/// What the program records of a draw, if it may; of other draws a scene brings along what their shaders see.
+fn kind(draw: Draw) -> Option<FramewrightDraw> {
+    Some(match DrawKind::of(draw) {
+        DrawKind::Custom => FramewrightDraw::Custom,
+        DrawKind::Objects(DrawList::Opaque) => FramewrightDraw::Opaque,
+        DrawKind::Objects(DrawList::Masked) => FramewrightDraw::Masked,
+        DrawKind::Objects(DrawList::Transparent) => FramewrightDraw::Transparent,
+        DrawKind::Casters(DrawList::Masked) => FramewrightDraw::MaskedCasters,
+        DrawKind::Casters(DrawList::Opaque | DrawList::Transparent) => FramewrightDraw::OpaqueCasters,
+        DrawKind::Sky => FramewrightDraw::Sky,
+        DrawKind::FullScreen | DrawKind::Vertices | DrawKind::Compute => return None,
+    })
 }
 
 fn no_scene(pass: &str) -> Error {
@@ -368,6 +384,46 @@ pub unsafe extern "C" fn framewright_renderer_discard(
                 executor.discard(frame);
             }
             Ok(())
+        })
+    }
+}
+
+/// Tells what pipelines must fit that the program binds itself in the pass of this name. It begins with a plan, as a frame does. What it
+/// points to lives until the next call of this function for the renderer, or until it is freed. `FRAMEWRIGHT_STATUS_MISUSE`: no rendering
+/// scope has such a pass.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_formats(
+    renderer: *mut FramewrightRenderer,
+    pass: *const c_char,
+    formats: *mut FramewrightFormats,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            let name = text(pass, "pass")?;
+            let found = state.executor()?.formats(name);
+            let found =
+                found.ok_or_else(|| Problem::Misuse(format!("no rendering scope has a pass of the name `{name}`")))?;
+            output(formats, "formats", FramewrightFormats::of(state.formats.insert(found)))
+        })
+    }
+}
+
+/// Tells how the pass of this name is recorded for both eyes at once: the FramewrightStereo, and how images hold both eyes' parts. Both are
+/// 0 if it isn't. It begins with a plan, as a frame does. `form` may be NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_both_eyes(
+    renderer: *mut FramewrightRenderer,
+    pass: *const c_char,
+    stereo: *mut u32,
+    form: *mut FramewrightEyeForm,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            let (found, form_of) = both(state.executor()?.both_eyes(text(pass, "pass")?));
+            optional_output(form, form_of);
+            output(stereo, "stereo", found)
         })
     }
 }

@@ -34,10 +34,11 @@ pub use device::{
     framewright_device_open,
 };
 pub use frames::{
-    FramewrightChoice, FramewrightSemaphore, FramewrightSubmission, framewright_renderer_discard,
-    framewright_renderer_frame, framewright_renderer_prepare, framewright_renderer_record_into,
-    framewright_renderer_run_all, framewright_renderer_set_dirty, framewright_renderer_set_frame_number,
-    framewright_renderer_set_time, framewright_renderer_submit, framewright_renderer_wait,
+    FramewrightChoice, FramewrightSemaphore, FramewrightSubmission, framewright_renderer_both_eyes,
+    framewright_renderer_discard, framewright_renderer_formats, framewright_renderer_frame,
+    framewright_renderer_prepare, framewright_renderer_record_into, framewright_renderer_run_all,
+    framewright_renderer_set_dirty, framewright_renderer_set_frame_number, framewright_renderer_set_time,
+    framewright_renderer_submit, framewright_renderer_wait,
 };
 pub use images::{
     FramewrightState, framewright_renderer_image, framewright_renderer_image_info, framewright_renderer_import_buffers,
@@ -45,7 +46,8 @@ pub use images::{
 };
 pub use last_error::{FramewrightMistake, framewright_last_error, framewright_last_mistake};
 pub use passes::{
-    FramewrightPass, FramewrightPassImage, FramewrightRecord, FramewrightResources, framewright_pass_buffer,
+    FramewrightDraw, FramewrightEye, FramewrightEyeForm, FramewrightEyeTarget, FramewrightFormats, FramewrightPass,
+    FramewrightPassImage, FramewrightRecord, FramewrightResources, framewright_pass_buffer, framewright_pass_draw,
     framewright_pass_image,
 };
 pub use renderer::{

@@ -1,26 +1,125 @@
-//! Custom passes, which the program records.
+//! Passes that the program records.
 
 use crate::arguments::{output, reference, text};
 use crate::last_error::{self, call};
 use crate::status::{FramewrightStatus, Problem};
+use framewright::graph::frame::{Eye, EyeForm, Stereo};
 use framewright::vulkan::Error;
 use framewright::vulkan::ash::vk;
-use framewright::{CustomRecorder, Recorder};
+use framewright::{CustomImage, CustomRecorder, EyeTarget, Recorder, ScopeFormats};
+use std::cell::RefCell;
 use std::ffi::{c_char, c_void};
+use std::ops::Range;
 use std::ptr;
 
-/// A custom pass that is to be recorded. It lives until its callback returns.
+/// What a pass draws that the program records.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub enum FramewrightDraw {
+    /// What the program knows by the name behind `custom`; also what it records outside of rendering scopes.
+    Custom = 0,
+    /// Opaque objects.
+    Opaque = 1,
+    /// Objects with holes.
+    Masked = 2,
+    /// Objects that let light through.
+    Transparent = 3,
+    /// Opaque objects as the sun sees them.
+    OpaqueCasters = 4,
+    /// Objects with holes as the sun sees them.
+    MaskedCasters = 5,
+    /// The sky.
+    Sky = 6,
+}
+
+/// How one image holds both eyes' parts, the left one's first.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub enum FramewrightEyeForm {
+    /// It doesn't: it is one picture.
+    None = 0,
+    /// In two layers.
+    Layers = 1,
+    /// Side by side.
+    Halves = 2,
+}
+
+/// An eye.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub enum FramewrightEye {
+    /// None of two: there is one, or both are meant.
+    None = 0,
+    /// The left one.
+    Left = 1,
+    /// The right one.
+    Right = 2,
+}
+
+/// Where the picture of an eye lies in what a pass draws into.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct FramewrightEyeTarget {
+    /// The viewport of all of it.
+    pub viewport: vk::Viewport,
+    /// The scissor of the same: what lies outside is the other eye's.
+    pub scissor: vk::Rect2D,
+    /// The layer of the attachments. With a view mask the device chooses it, and `gl_ViewIndex` is its number; without one, a vertex shader
+    /// does so (`gl_Layer`).
+    pub layer: u32,
+}
+
+/// What pipelines of the program's own must fit to be bound in a pass within a rendering scope.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct FramewrightFormats {
+    /// Formats of the colour attachments.
+    pub color: *const vk::Format,
+    /// How many there are.
+    pub color_count: u32,
+    /// The format of the depth attachment; `VK_FORMAT_UNDEFINED` if there is none.
+    pub depth: vk::Format,
+    /// The format of the stencil attachment; `VK_FORMAT_UNDEFINED` if there is none.
+    pub stencil: vk::Format,
+    /// Samples of each attachment: a `VkSampleCountFlagBits`.
+    pub samples: vk::SampleCountFlags,
+    /// Views that are drawn at once, a bit for each; 0 where there are none.
+    pub view_mask: u32,
+    /// For each colour attachment the location at which the pass writes it (`VkRenderingAttachmentLocationInfoKHR`); NULL: its own number.
+    pub locations: *const u32,
+    /// For each colour attachment the number of its input attachment (`VkRenderingInputAttachmentIndexInfoKHR`); NULL: its own number.
+    pub inputs: *const u32,
+}
+
+impl FramewrightFormats {
+    /// Those that live as long as `formats`.
+    pub(crate) fn of(formats: &ScopeFormats) -> FramewrightFormats {
+        let local = formats.local.as_ref();
+        FramewrightFormats {
+            color: formats.color.as_ptr(),
+            color_count: u32::try_from(formats.color.len()).unwrap_or(u32::MAX),
+            depth: formats.depth,
+            stencil: formats.stencil,
+            samples: formats.samples,
+            view_mask: formats.view_mask,
+            locations: local.map_or(ptr::null(), |local| local.locations.as_ptr()),
+            inputs: local.map_or(ptr::null(), |local| local.inputs.as_ptr()),
+        }
+    }
+}
+
+/// A pass that is to be recorded. It lives until its callback returns.
 #[repr(C)]
 pub struct FramewrightPass<'p> {
     /// The name of the pass.
     pub name: *const c_char,
-    /// What the pipeline calls its work: the name behind `custom`.
+    /// What the pipeline calls its work: the name behind `custom`. Of other draws, the name of their shader.
     pub custom: *const c_char,
     /// Where it is recorded. Its barriers are there already.
     pub commands: vk::CommandBuffer,
     /// Whether it stands inside a rendering scope with the pass's targets, which is left open; else it stands outside of one.
     pub in_scope: u32,
-    /// Width of the targets; 0 outside of a scope.
+    /// Width of the targets, of two eyes of one's; 0 outside of a scope.
     pub width: u32,
     /// Height of the targets; 0 outside of a scope.
     pub height: u32,
@@ -30,12 +129,67 @@ pub struct FramewrightPass<'p> {
     pub resources: *const FramewrightResources<'p>,
     /// The queue family that the commands are for: that for graphics, or that for compute if the pipeline says `queue: Any`.
     pub queue_family: u32,
+    /// What it draws.
+    pub draw: FramewrightDraw,
+    /// The eye that it is recorded for, where it is recorded for one after the other.
+    pub eye: FramewrightEye,
+    /// The FramewrightStereo in which it is recorded for both eyes at once; `FRAMEWRIGHT_STEREO_OFF`: it isn't.
+    pub both_eyes: u32,
+    /// How images hold both eyes' parts that it is recorded for.
+    pub eye_form: FramewrightEyeForm,
+    /// Inside a scope for both eyes, where each eye's picture lies, the left one's first; else 0.
+    pub eye_targets: [FramewrightEyeTarget; 2],
+    /// Inside a scope, what pipelines of the program's must fit; NULL outside of one.
+    pub formats: *const FramewrightFormats,
 }
 
-/// What a pass outside of a rendering scope accesses.
-pub struct FramewrightResources<'p>(&'p CustomRecorder<'p>);
+/// What a pass accesses.
+pub struct FramewrightResources<'p>(&'p dyn PassResources);
 
-/// Records a custom pass: commands that touch what the pipeline says that the pass touches, and what is the program's own. Returns 0 if it
+/// What the program asks of a pass while it records it.
+trait PassResources {
+    fn image(&self, name: &str) -> Option<CustomImage>;
+    fn buffer(&self, name: &str) -> Option<vk::Buffer>;
+    /// Draws vertices, if the pass stands inside a scope.
+    fn draw(&self, vertices: Range<u32>, instances: Range<u32>) -> bool;
+}
+
+impl PassResources for CustomRecorder<'_> {
+    fn image(&self, name: &str) -> Option<CustomImage> {
+        CustomRecorder::image(self, name)
+    }
+
+    fn buffer(&self, name: &str) -> Option<vk::Buffer> {
+        CustomRecorder::buffer(self, name)
+    }
+
+    fn draw(&self, _: Range<u32>, _: Range<u32>) -> bool {
+        false
+    }
+}
+
+/// A pass inside a scope.
+struct Inside<'p, 'f>(RefCell<&'p mut Recorder<'f>>);
+
+impl PassResources for Inside<'_, '_> {
+    fn image(&self, name: &str) -> Option<CustomImage> {
+        self.0.borrow().image(name)
+    }
+
+    fn buffer(&self, name: &str) -> Option<vk::Buffer> {
+        self.0.borrow().buffer(name)
+    }
+
+    fn draw(&self, vertices: Range<u32>, instances: Range<u32>) -> bool {
+        let mut recorder = self.0.borrow_mut();
+        // The program may have set viewport and scissor since.
+        let _ = recorder.raw();
+        recorder.draw(vertices, instances);
+        true
+    }
+}
+
+/// Records a pass: commands that touch what the pipeline says that the pass touches, and what is the program's own. Returns 0 if it
 /// doesn't know the pass, which is an error of the frame. No function is called for the renderer meanwhile, and no
 /// exception or longjmp leaves it.
 pub type FramewrightRecord =
@@ -56,6 +210,10 @@ pub struct FramewrightPassImage {
     pub depth: u32,
     /// The layout that it is in, and is left in.
     pub layout: vk::ImageLayout,
+    /// How it holds both eyes' parts: in two layers, which are in `range`, or side by side, of which `width` and `height` are one's.
+    pub eye_form: FramewrightEyeForm,
+    /// The eye whose part alone is meant, of an image that holds both eyes'.
+    pub eye: FramewrightEye,
 }
 
 /// The program's callback, and what it is given.
@@ -67,11 +225,19 @@ pub(crate) struct Callback {
 
 impl Callback {
     /// Has the program record what stands inside a rendering scope.
-    pub(crate) fn inside(&self, recorder: &mut Recorder<'_>) -> Result<u32, Error> {
+    pub(crate) fn inside(&self, kind: FramewrightDraw, recorder: &mut Recorder<'_>) -> Result<u32, Error> {
         let (name, custom) = (recorder.pass().to_owned(), recorder.shader().to_owned());
         let ([width, height], frame) = (recorder.target_extent(), recorder.frame());
-        let queue_family = recorder.queue_family();
+        let (queue_family, own_eye) = (recorder.queue_family(), eye(recorder.eye()));
+        let (both_eyes, eye_form) = both(recorder.both_eyes());
+        let eye_targets = recorder.eye_targets().map_or(NO_EYES, |eyes| {
+            eyes.map(|EyeTarget { viewport, scissor, layer, .. }| FramewrightEyeTarget { viewport, scissor, layer })
+        });
+        let formats = recorder.formats().clone();
+        let formats = FramewrightFormats::of(&formats);
         let commands = recorder.raw();
+        let inside = Inside(RefCell::new(recorder));
+        let resources = FramewrightResources(&inside);
         let pass = |name, custom| FramewrightPass {
             name,
             custom,
@@ -80,8 +246,14 @@ impl Callback {
             width,
             height,
             frame,
-            resources: ptr::null(),
+            resources: &raw const resources,
             queue_family,
+            draw: kind,
+            eye: own_eye,
+            both_eyes,
+            eye_form,
+            eye_targets,
+            formats: &raw const formats,
         };
         self.call(&name, &custom, pass).map(|()| 1)
     }
@@ -90,7 +262,9 @@ impl Callback {
     pub(crate) fn outside(&self, custom: &str, recorder: &mut CustomRecorder<'_>) -> Result<(), Error> {
         let commands = recorder.raw();
         let (queue_family, frame) = (recorder.queue_family(), recorder.frame());
-        let resources = FramewrightResources(recorder);
+        let own_eye = eye(recorder.view().and_then(|view| view.eye).map(|of| of.eye));
+        let (both_eyes, eye_form) = both(recorder.both_eyes());
+        let resources = FramewrightResources(&*recorder);
         let pass = |name, custom| FramewrightPass {
             name,
             custom,
@@ -99,8 +273,14 @@ impl Callback {
             width: 0,
             height: 0,
             frame,
-            resources: &resources,
+            resources: &raw const resources,
             queue_family,
+            draw: FramewrightDraw::Custom,
+            eye: own_eye,
+            both_eyes,
+            eye_form,
+            eye_targets: NO_EYES,
+            formats: ptr::null(),
         };
         self.call(recorder.pass(), custom, pass)
     }
@@ -123,16 +303,43 @@ impl Callback {
     }
 }
 
+const NO_EYES: [FramewrightEyeTarget; 2] = [FramewrightEyeTarget {
+    viewport: vk::Viewport { x: 0.0, y: 0.0, width: 0.0, height: 0.0, min_depth: 0.0, max_depth: 0.0 },
+    scissor: vk::Rect2D { offset: vk::Offset2D { x: 0, y: 0 }, extent: vk::Extent2D { width: 0, height: 0 } },
+    layer: 0,
+}; 2];
+
+fn eye(eye: Option<Eye>) -> FramewrightEye {
+    match eye {
+        None => FramewrightEye::None,
+        Some(Eye::Left) => FramewrightEye::Left,
+        Some(Eye::Right) => FramewrightEye::Right,
+    }
+}
+
+fn form(form: Option<EyeForm>) -> FramewrightEyeForm {
+    match form {
+        None => FramewrightEyeForm::None,
+        Some(EyeForm::Layers) => FramewrightEyeForm::Layers,
+        Some(EyeForm::Halves) => FramewrightEyeForm::Halves,
+    }
+}
+
+/// The number of a FramewrightStereo, and the form of images.
+pub(crate) fn both(both: Option<(Stereo, EyeForm)>) -> (u32, FramewrightEyeForm) {
+    let stereo = both.map_or(Stereo::Off, |(stereo, _)| stereo);
+    (stereo as u32, form(both.map(|(_, form)| form)))
+}
+
 /// # Safety
 /// The pointer is NULL or leads to a pass whose callback hasn't returned.
-unsafe fn recorder<'p>(pass: *const FramewrightPass<'p>) -> Result<&'p CustomRecorder<'p>, Problem> {
+unsafe fn resources<'p>(pass: *const FramewrightPass<'p>) -> Result<&'p dyn PassResources, Problem> {
     // SAFETY: the caller's word.
-    let resources = unsafe { reference(pass, "pass")?.resources.as_ref() };
-    let resources = resources.ok_or_else(|| Problem::Misuse("the pass stands inside a rendering scope".to_owned()))?;
+    let resources = unsafe { reference(reference(pass, "pass")?.resources, "pass->resources")? };
     Ok(resources.0)
 }
 
-/// Tells an image that a pass outside of a rendering scope accesses, by the pipeline's name.
+/// Tells an image that a pass accesses, by the pipeline's name.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn framewright_pass_image(
     pass: *const FramewrightPass<'_>,
@@ -142,7 +349,7 @@ pub unsafe extern "C" fn framewright_pass_image(
     // SAFETY: the caller's word.
     call(|| unsafe {
         let name = text(name, "name")?;
-        let found = recorder(pass)?.image(name);
+        let found = resources(pass)?.image(name);
         let found = found.ok_or_else(|| Problem::Misuse(format!("the pass accesses no image `{name}`")))?;
         let [width, height, depth] = found.extent;
         let range = vk::ImageSubresourceRange {
@@ -152,12 +359,14 @@ pub unsafe extern "C" fn framewright_pass_image(
             base_array_layer: found.range.base_layer,
             layer_count: found.range.layers,
         };
-        let found = FramewrightPassImage { image: found.raw, range, width, height, depth, layout: found.layout };
+        let (image_of, layout) = (found.raw, found.layout);
+        let (eye_form, eye) = (form(found.eyes), eye(found.eye));
+        let found = FramewrightPassImage { image: image_of, range, width, height, depth, layout, eye_form, eye };
         output(image, "image", found)
     })
 }
 
-/// Tells a buffer that a pass outside of a rendering scope accesses, by the pipeline's name.
+/// Tells a buffer that a pass accesses, by the pipeline's name.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn framewright_pass_buffer(
     pass: *const FramewrightPass<'_>,
@@ -167,7 +376,29 @@ pub unsafe extern "C" fn framewright_pass_buffer(
     // SAFETY: the caller's word.
     call(|| unsafe {
         let name = text(name, "name")?;
-        let found = recorder(pass)?.buffer(name);
+        let found = resources(pass)?.buffer(name);
         output(buffer, "buffer", found.ok_or_else(|| Problem::Misuse(format!("the pass accesses no buffer `{name}`")))?)
+    })
+}
+
+/// Draws consecutive vertices of a pass inside a rendering scope whose shader is the pipeline's, for both eyes where the pass is for both.
+/// Shaders see `first_instance` as their first `gl_InstanceIndex`. What is misused, as a set that isn't bound, is the error of the frame.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_pass_draw(
+    pass: *const FramewrightPass<'_>,
+    first_vertex: u32,
+    vertex_count: u32,
+    first_instance: u32,
+    instance_count: u32,
+) -> FramewrightStatus {
+    let range = |first: u32, count: u32, what: &str| {
+        let end = first.checked_add(count).ok_or_else(|| Problem::Misuse(format!("too many {what}")))?;
+        Ok::<_, Problem>(first..end)
+    };
+    // SAFETY: the caller's word.
+    call(|| unsafe {
+        let vertices = range(first_vertex, vertex_count, "vertices")?;
+        let drawn = resources(pass)?.draw(vertices, range(first_instance, instance_count, "instances")?);
+        drawn.then_some(()).ok_or_else(|| Problem::Misuse("the pass stands outside of rendering scopes".to_owned()))
     })
 }

@@ -12,7 +12,9 @@ use crate::status::{FramewrightStatus, Problem};
 use framewright::graph::base::Root;
 use framewright::graph::vulkan::Format;
 use framewright::vulkan::ash::vk;
-use framewright::{Facts, RawSet, Renderer, RendererOptions, Rotation, Scene, SceneDrawSource, Stereo, Texels};
+use framewright::{
+    Facts, RawSet, Renderer, RendererOptions, Rotation, Scene, SceneDrawSource, ScopeFormats, Stereo, Texels,
+};
 use std::ffi::{c_char, c_void};
 use std::sync::{Arc, Mutex, TryLockError};
 
@@ -48,6 +50,8 @@ pub(crate) struct State {
     pub(crate) unreported: FramewrightChange,
     /// What was read last.
     pub(crate) texels: Option<Texels>,
+    /// The formats that it asked for last.
+    pub(crate) formats: Option<ScopeFormats>,
 }
 
 /// What a renderer is made with, and keeps. 0 in a field is its default.
@@ -239,6 +243,7 @@ pub unsafe extern "C" fn framewright_renderer_open(
             callback: None,
             unreported: FramewrightChange::Nothing,
             texels: None,
+            formats: None,
         })))
     };
     // SAFETY: the caller's word.
@@ -312,7 +317,7 @@ pub unsafe extern "C" fn framewright_renderer_set_scene(
     }
 }
 
-/// Has `record` record custom passes, and gives it `context`; NULL: nobody does.
+/// Has `record` record custom passes, and draws of objects and sky where no scene was set, and gives it `context`; NULL: nobody does.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn framewright_renderer_set_recorder(
     renderer: *mut FramewrightRenderer,

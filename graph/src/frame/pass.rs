@@ -56,6 +56,8 @@ pub struct Pass {
     pub uses: Vec<DeclaredUse>,
     /// Whether a custom pass that declares how it uses all that it names may be recorded for a queue for compute.
     pub any_queue: bool,
+    /// Whether the program records a custom pass for both eyes at once: what it touches may hold both eyes' parts.
+    pub both_eyes: bool,
     /// Whether it has an effect that no image or buffer shows: it is never culled.
     pub side_effect: bool,
     /// Values for the shader's parameter block, by member name.
@@ -91,6 +93,7 @@ impl Pass {
             transfers: Vec::new(),
             uses: Vec::new(),
             any_queue: false,
+            both_eyes: false,
             side_effect: false,
             params: Vec::new(),
             constants: Vec::new(),

@@ -181,6 +181,13 @@ impl Plan {
         self.first_attachment(scope).and_then(|it| it.eyes)
     }
 
+    /// How images hold both eyes' parts that the program reaches in a pass which it records for both eyes at once; `None`: it doesn't.
+    #[must_use]
+    pub fn both_eyes(&self, pass: &Pass) -> Option<EyeForm> {
+        let both = pass.accesses.iter().filter(|access| pass.both_eyes && access.eye.is_none());
+        both.map(|access| self.image(access.image)).find_map(|image| image.eyes)
+    }
+
     /// How a resolve that is a step of its own makes one value of samples (`vkCmdResolveImage2`): integers take sample zero.
     #[must_use]
     pub fn mode_of(&self, resolve: &Transfer) -> ResolveMode {

@@ -181,6 +181,9 @@ pub struct Pass {
     /// Whether the program agrees to record it for another queue than that for graphics.
     #[serde(default, skip_serializing_if = "is_not")]
     pub any_queue: bool,
+    /// Whether the program records it for both eyes at once: what it touches holds both eyes' parts.
+    #[serde(default, skip_serializing_if = "is_not")]
+    pub both_eyes: bool,
     /// Why it shares its scope with the pass before it. Boxed, since few passes do.
     pub merged: Option<Box<Reason>>,
 }

@@ -21,11 +21,13 @@ pub struct DrawInterfaces {
 
 impl DrawInterfaces {
     /// With the interface of another kind of draw, in place of the one that it had. What a kind can't have is left out: vertices of
-    /// full-screen passes, vertices and push constants of compute passes.
+    /// full-screen passes, vertices and push constants of compute passes and of draws whose vertices are the pass's own.
     #[must_use]
     pub fn with(mut self, kind: DrawKind, interface: DrawInterface) -> DrawInterfaces {
         let interface = match kind {
-            DrawKind::Compute => DrawInterface { supplied: interface.supplied, ..DrawInterface::default() },
+            DrawKind::Compute | DrawKind::Vertices => {
+                DrawInterface { supplied: interface.supplied, ..DrawInterface::default() }
+            }
             DrawKind::FullScreen => DrawInterface {
                 push_constants: interface.push_constants,
                 supplied: interface.supplied,
@@ -72,11 +74,11 @@ impl DrawInterfaces {
         self
     }
 
-    /// The interface of a draw; an empty one where the pass has vertices of its own. Of a custom draw it is that of
+    /// The interface of a draw. Of a custom draw it is that of
     /// [`DrawKind::Custom`]: see [`DrawInterfaces::of_pass`].
     #[must_use]
     pub fn of(&self, draw: Draw) -> DrawInterface {
-        DrawKind::of(draw).map_or_else(DrawInterface::default, |kind| self.of_kind(kind))
+        self.of_kind(DrawKind::of(draw))
     }
 
     /// The interface of a pass that draws `draw` (`None`: a compute pass). `name` is the name of its shader; of a custom pass that by

@@ -15,6 +15,8 @@ pub enum DrawKind {
     Sky,
     /// The full screen.
     FullScreen,
+    /// Draws whose vertices are the pass's own (`Vertices`, `Indirect`). The draw source draws nothing of them: they see resources of its.
+    Vertices,
     /// Draws of custom passes.
     Custom,
     /// Compute passes. They draw nothing, and see resources of the draw source.
@@ -23,7 +25,7 @@ pub enum DrawKind {
 
 impl DrawKind {
     /// All of them.
-    pub const ALL: [DrawKind; 9] = [
+    pub const ALL: [DrawKind; 10] = [
         DrawKind::Objects(DrawList::Opaque),
         DrawKind::Objects(DrawList::Masked),
         DrawKind::Objects(DrawList::Transparent),
@@ -31,20 +33,21 @@ impl DrawKind {
         DrawKind::Casters(DrawList::Masked),
         DrawKind::Sky,
         DrawKind::FullScreen,
+        DrawKind::Vertices,
         DrawKind::Custom,
         DrawKind::Compute,
     ];
 
-    /// The kind of a draw; `None` if the pass has vertices of its own, which no draw source brings.
+    /// The kind of a draw.
     #[must_use]
-    pub const fn of(draw: Draw) -> Option<DrawKind> {
+    pub const fn of(draw: Draw) -> DrawKind {
         match draw {
-            Draw::Objects(list) => Some(DrawKind::Objects(list)),
-            Draw::Casters(Cascade { list, .. }) => Some(DrawKind::Casters(list)),
-            Draw::Sky => Some(DrawKind::Sky),
-            Draw::FullScreen => Some(DrawKind::FullScreen),
-            Draw::Custom => Some(DrawKind::Custom),
-            Draw::Vertices { .. } | Draw::Indirect => None,
+            Draw::Objects(list) => DrawKind::Objects(list),
+            Draw::Casters(Cascade { list, .. }) => DrawKind::Casters(list),
+            Draw::Sky => DrawKind::Sky,
+            Draw::FullScreen => DrawKind::FullScreen,
+            Draw::Custom => DrawKind::Custom,
+            Draw::Vertices { .. } | Draw::Indirect => DrawKind::Vertices,
         }
     }
 
@@ -57,6 +60,7 @@ impl DrawKind {
             }
             DrawKind::Sky => Draw::Sky,
             DrawKind::FullScreen => Draw::FullScreen,
+            DrawKind::Vertices => Draw::Vertices { count: 3, instances: 1 },
             DrawKind::Custom => Draw::Custom,
             DrawKind::Compute => return None,
         })

@@ -20,7 +20,7 @@ const VERSION: i64 = 1;
 pub const LARGEST_INTERFACE: usize = 1 << 20;
 const FORM: &str = "an interface is `Interface(version: 1, draws: [(of: [Sky], supplied: […]), …], custom: [\"…\"])`";
 const KINDS: &str = "a kind of draw is `Objects(Opaque)`, `Objects(Masked)`, `Objects(Transparent)`, `Casters(Opaque)`, \
-                     `Casters(Masked)`, `Sky`, `FullScreen`, `Custom`, `Custom(\"grass\")` or `Compute`";
+                     `Casters(Masked)`, `Sky`, `FullScreen`, `Vertices`, `Custom`, `Custom(\"grass\")` or `Compute`";
 
 fields! {
     struct InterfaceFields<'t> as "Interface" {
@@ -179,10 +179,22 @@ fn whole(reader: &mut Reader, all: Leaf<'_>) -> Option<DrawInterfaces> {
                 "give `FullScreen` an entry of its own",
             ),
             (
+                DrawKind::Vertices,
+                told,
+                "draws of a pass's own vertices have none of a draw source",
+                "give `Vertices` an entry of its own",
+            ),
+            (
                 DrawKind::Compute,
                 pushed,
                 "compute passes have no push constants of a draw source",
                 "give `Compute` an entry of its own",
+            ),
+            (
+                DrawKind::Vertices,
+                pushed,
+                "draws of a pass's own vertices have no push constants of a draw source",
+                "give `Vertices` an entry of its own",
             ),
         ] {
             if let Some(leaf) = leaf.filter(|_| kinds.contains(&InterfaceOf::Kind(kind))) {
@@ -239,7 +251,7 @@ fn kinds(reader: &mut Reader, leaf: Leaf<'_>, seen: &mut HashMap<InterfaceOf, Sp
 }
 
 fn kind(reader: &mut Reader, leaf: Leaf<'_>) -> Option<InterfaceOf> {
-    const WORDS: [&str; 6] = ["Objects", "Casters", "Sky", "FullScreen", "Custom", "Compute"];
+    const WORDS: [&str; 7] = ["Objects", "Casters", "Sky", "FullScreen", "Vertices", "Custom", "Compute"];
     let (word, rest) = reader.word(leaf, "a kind of draw", &WORDS, KINDS)?;
     let mut list = |lists: &[(&'static str, DrawList)], form| {
         let [list]: [Leaf<'_>; 1] = reader.inside(leaf, rest, form)?;
@@ -261,6 +273,7 @@ fn kind(reader: &mut Reader, leaf: Leaf<'_>) -> Option<InterfaceOf> {
     Some(InterfaceOf::Kind(match word {
         "Sky" => DrawKind::Sky,
         "FullScreen" => DrawKind::FullScreen,
+        "Vertices" => DrawKind::Vertices,
         "Compute" => DrawKind::Compute,
         _ => DrawKind::Custom,
     }))

@@ -1,7 +1,7 @@
 //! Whether images that hold both eyes' parts are used for both eyes at once, or by shaders that say which eye's part they read.
 
 use super::findings::Findings;
-use crate::frame::{EyeForm, Stereo};
+use crate::frame::{Draw, EyeForm, Stereo};
 use crate::plan::{Access, ImageId, Plan, RenderScope, Side, StepId, Transfer, Work};
 use crate::vulkan::{Accesses, Shape};
 
@@ -32,10 +32,18 @@ pub(super) fn check(plan: &Plan, found: &mut Findings<'_>) {
         match &step.work {
             Work::Render(scope) => {
                 all_or_none(plan, id, scope, found);
+                let both = plan.eyes(scope).is_some();
                 for pass in &scope.passes {
-                    of_an_eye(plan, id, &pass.accesses, plan.eyes(scope).is_some(), found);
+                    of_an_eye(plan, id, &pass.accesses, both, found);
+                    let target = scope.attachments.first().map(|it| it.image.0);
+                    if both && pass.draw.is_some_and(Draw::is_custom) && !pass.both_eyes {
+                        let name = &pass.name;
+                        let what = format!("holds both eyes' parts, and the program records `{name}` for one eye");
+                        found.structure(Some(id), target, what);
+                    }
                 }
             }
+            Work::Custom(pass) if pass.both_eyes => of_both(plan, id, &pass.accesses, found),
             Work::Dispatch(pass) | Work::Custom(pass) => of_an_eye(plan, id, &pass.accesses, false, found),
             Work::Copy(transfer) | Work::Resolve(transfer) => same_on_both_sides(plan, id, transfer, found),
             Work::Blit(transfer) => {
@@ -79,6 +87,20 @@ fn of_an_eye(plan: &Plan, id: StepId, accesses: &[Access], both: bool, found: &m
             found.structure(Some(id), Some(image.0), "holds both eyes' parts, and a pass doesn't say whose it reads");
         }
     }
+    named_eyes(plan, id, accesses, found);
+}
+
+/// What the program records outside of rendering scopes for both eyes reaches both parts, or one that is named and only sampled.
+fn of_both(plan: &Plan, id: StepId, accesses: &[Access], found: &mut Findings<'_>) {
+    let both = |access: &&Access| plan.image(access.image).eyes.is_some() && access.eye.is_none();
+    if accesses.iter().find(both).is_none() {
+        found.structure(Some(id), None, "is recorded for both eyes, and touches nothing that holds both eyes' parts");
+    }
+    named_eyes(plan, id, accesses, found);
+}
+
+/// An eye is named of what holds both eyes' parts alone.
+fn named_eyes(plan: &Plan, id: StepId, accesses: &[Access], found: &mut Findings<'_>) {
     for access in accesses.iter().filter(|access| access.eye.is_some()) {
         let image = Some(access.image.0);
         if plan.image(access.image).eyes.is_none() {

@@ -7,8 +7,8 @@ use framewright_graph::base::Span;
 use framewright_graph::compile::{Compiler, Options, Reuse};
 use framewright_graph::device::{MemoryEstimate, Profile};
 use framewright_graph::frame::{
-    Blend, Eye, EyeForm, Frame, Groups, Image, ImageIndex, Pass, Resource, SampledImage, Stereo, Storage, TransferUse,
-    Work,
+    Blend, Draw, Eye, EyeForm, Frame, Groups, Image, ImageIndex, Pass, Resource, SampledImage, Stereo, Storage,
+    TransferUse, Work,
 };
 use framewright_graph::plan::{ImageId, Plan, Role};
 use framewright_graph::verify::verify;
@@ -252,6 +252,27 @@ fn transfers(name: &str, work: Work, of: &[(ImageIndex, bool)]) -> Pass {
     Pass { transfers: of.iter().map(used).collect(), side_effect: true, ..Pass::new(name, work) }
 }
 
+/// Has the program record what a pass draws, for both eyes at once or not.
+fn custom(pass: &mut Pass, both_eyes: bool) {
+    pass.work = Work::Draw { draw: Draw::Custom, shader: "it".into(), discards: false, per_sample: false };
+    pass.both_eyes = both_eyes;
+    pass.color[0].clear = Some([0.0; 4]);
+}
+
+/// DO-12: within a rendering scope and outside of it.
+#[test]
+fn what_the_program_records_for_both_eyes_reaches_both_parts() {
+    for (stereo, form) in MODES {
+        let mut frame = frame(stereo, form);
+        custom(&mut frame.passes[2], true);
+        let outside = transfers("outside", Work::Custom { callback: "it".into() }, &[(SCREEN, false)]);
+        frame.passes.push(Pass { both_eyes: true, ..outside });
+        let plan = compiled(&frame);
+        assert_eq!(verify(&plan), [], "{stereo:?}: {}", plan.tree());
+        assert_eq!(plan.tree().matches("for both eyes at once").count(), 2, "{}", plan.tree());
+    }
+}
+
 fn sampled(frame: &mut Frame, pass: usize, at: usize) -> &mut SampledImage {
     &mut frame.passes[pass].sampled[at]
 }
@@ -259,7 +280,7 @@ fn sampled(frame: &mut Frame, pass: usize, at: usize) -> &mut SampledImage {
 #[test]
 fn frames_that_use_both_eyes_parts_otherwise_than_for_both_are_refused_in_words() {
     type Change = fn(&mut Frame);
-    let changes: [(&str, Change); 14] = [
+    let changes: [(&str, Change); 16] = [
         ("`color` holds both eyes' parts, so each is flat and has one layer and one mip level", |frame| {
             (frame.images[0].mips, frame.images[0].samples) = (2, 1);
             frame.images[1].samples = 1;
@@ -296,6 +317,16 @@ fn frames_that_use_both_eyes_parts_otherwise_than_for_both_are_refused_in_words(
         }),
         ("`outside` transfers `screen`, which holds both eyes' parts", |frame| {
             frame.passes.push(transfers("outside", Work::Custom { callback: "it".into() }, &[(SCREEN, false)]));
+        }),
+        (
+            "`show` is recorded by a program that doesn't say `both_eyes`, and draws into `screen`, which holds both eyes' parts",
+            |frame| custom(&mut frame.passes[2], false),
+        ),
+        ("`show` accesses as storage `color`, which holds both eyes' parts", |frame| {
+            (frame.images[0].samples, frame.images[1].samples) = (1, 1);
+            frame.passes[2].sampled.remove(0);
+            frame.passes[2].storage = dispatch("it", COLOR, false).storage;
+            custom(&mut frame.passes[2], true);
         }),
         ("`one` transfers `screen`, which holds both eyes' parts", |frame| {
             frame.images.push(Image::new("more", R8G8B8A8_SRGB, 64, 64));

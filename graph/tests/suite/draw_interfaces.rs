@@ -93,6 +93,14 @@ fn an_engine_writes_its_interfaces_and_reads_them_again() {
         assert_eq!(interfaces.of(draw), engine(draw), "{kind}");
     }
     assert_eq!(interfaces.of(Draw::Vertices { count: 3, instances: 1 }), DrawInterface::default());
+    // DO-12: draws of a pass's own vertices see resources, and bring their vertices themselves.
+    let (own, objects) = (DrawKind::Vertices, engine(Draw::Objects(DrawList::Opaque)));
+    let with_own = interfaces.clone().with(own, objects.clone());
+    let seen = DrawInterface { supplied: objects.supplied, ..DrawInterface::default() };
+    for draw in [Draw::Vertices { count: 6, instances: 2 }, Draw::Indirect] {
+        assert_eq!(with_own.of(draw), seen);
+    }
+    assert_eq!(read(&with_own.to_ron()), Ok(with_own));
     assert_eq!(interfaces.of_kind(DrawKind::Compute).supplied[0].name, "counters");
     let told = DrawInterfaces::from(|_| engine(Draw::Sky));
     assert_eq!(
@@ -146,6 +154,12 @@ fn each_mistake_is_told_at_its_place() {
     let pushed = "of: [Compute],\n            push_constants: [(bytes: 16)],\n            vertex_stride: ";
     let said = &["compute passes have no push constants", "an entry of its own"];
     wrong(compute, pushed, "27:29", said);
+    let compute = "of: [Compute],\n            vertex_stride: ";
+    let (own, said) =
+        (compute.replace("Compute", "Vertices"), ["vertices have none of a draw source", "give `Vertices` an entry"]);
+    wrong(&format!("{compute}0"), &format!("{own}4"), "27:28", &said);
+    let said = ["vertices have no push constants of a draw source", "give `Vertices` an entry of its own"];
+    wrong(compute, &pushed.replace("Compute", "Vertices"), "27:29", &said);
     let full_screen = "of: [FullScreen],\n            topology: LineList,\n            vertex_stride: ";
     let said = &["full-screen passes have no vertices", "give `FullScreen` an entry of its own"];
     wrong(compute, full_screen, "27:23", said);

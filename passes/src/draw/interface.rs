@@ -35,8 +35,8 @@ pub fn interfaces() -> DrawInterfaces {
 
 /// Everything that the shipped draw source binds for a kind of draw.
 ///
-/// The sky and full-screen draws are given the same frame set as objects, so that one bind group serves all; other draws are
-/// given only the resources of their pass.
+/// The sky, full-screen draws and draws of a pass's own vertices are given the same frame set as objects, so that one bind group serves
+/// all; custom draws are given only the resources of their pass.
 #[must_use]
 pub fn interface(draw: Draw) -> DrawInterface {
     let mut supplied = of_frame();
@@ -60,8 +60,10 @@ pub fn interface(draw: Draw) -> DrawInterface {
                 ..DrawInterface::default()
             }
         }
-        Draw::Sky | Draw::FullScreen => DrawInterface { supplied, ..DrawInterface::default() },
-        Draw::Vertices { .. } | Draw::Indirect | Draw::Custom => DrawInterface::default(),
+        Draw::Sky | Draw::FullScreen | Draw::Vertices { .. } | Draw::Indirect => {
+            DrawInterface { supplied, ..DrawInterface::default() }
+        }
+        Draw::Custom => DrawInterface::default(),
     }
 }
 

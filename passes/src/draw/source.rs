@@ -319,7 +319,12 @@ impl DrawSource for SceneDrawSource {
                 recorder.draw(0..3, 0..1);
                 Ok(1)
             }
-            Draw::Vertices { .. } | Draw::Indirect | Draw::Custom => {
+            // The draw of the pass's own vertices follows.
+            Draw::Vertices { .. } | Draw::Indirect => {
+                recorder.bind_group(FRAME_SET, self.group_and_visible(recorder)?.0);
+                Ok(1)
+            }
+            Draw::Custom => {
                 let what =
                     format!("a scene doesn't draw `{}`, which pass `{}` asks for", recorder.shader(), recorder.pass());
                 Err(Error::DrawSource { what })

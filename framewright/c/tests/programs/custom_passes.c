@@ -57,7 +57,11 @@ static uint32_t record(void *context, const FramewrightPass *pass) {
     }
     if (strcmp(pass->custom, "mark") == 0 && pass->in_scope && program->knows_marks &&
         pass->queue_family == program->family) {
-        fails(framewright_pass_image(pass, "screen", &image), FRAMEWRIGHT_STATUS_MISUSE, "inside a rendering scope");
+        fails(framewright_pass_image(pass, "mine", &image), FRAMEWRIGHT_STATUS_MISUSE, "accesses no image `mine`");
+        check(framewright_pass_image(pass, "screen", &image));
+        if (image.layout != VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL || image.eye_form != FRAMEWRIGHT_EYE_FORM_NONE) {
+            return 0;
+        }
         VkClearAttachment white = {VK_IMAGE_ASPECT_COLOR_BIT, 0, {.color = {.float32 = {1, 1, 1, 1}}}};
         VkClearRect corner = {{{0, 0}, {pass->width / 2, pass->height / 2}}, 0, 1};
         vkCmdClearAttachments(pass->commands, 1, &white, 1, &corner);

@@ -179,6 +179,14 @@ fn a_program_in_c_records_custom_passes() {
     }
 }
 
+/// In each way that the device knows, with draws of objects of the program's own (DO-12).
+#[test]
+fn do_12_a_program_in_c_records_for_both_eyes_at_once() {
+    let Some(program) = program("framewright/c/tests/programs/both_eyes.c") else { return };
+    let said = succeeded(&program.run(&[], &[]));
+    println!("{said}");
+}
+
 /// The layer is on: it would print what it finds (DO-5).
 #[test]
 fn a_program_in_c_binds_a_set_of_its_own() {

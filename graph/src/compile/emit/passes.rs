@@ -135,7 +135,7 @@ pub(super) fn pass(results: &StageResults<'_>, number: u32) -> Pass {
     }
     let view = view(results, declared.view);
     let mut planned = Pass { view, accesses, buffers, ..bare(name, cause, draw, work.groups(), shader) };
-    planned.any_queue = declared.any_queue;
+    (planned.any_queue, planned.both_eyes) = (declared.any_queue, declared.both_eyes);
     if work.is_draw() {
         drawn(results, &mut planned, declared, uses);
         planned.alpha_to_coverage = declared.alpha_to_coverage && has_samples(results.adapted, uses);
@@ -274,6 +274,7 @@ fn bare(name: Arc<str>, cause: Cause, draw: Option<Draw>, groups: Option<Groups>
         buffers: Vec::new(),
         local_barrier: false,
         any_queue: false,
+        both_eyes: false,
         merged: None,
     }
 }

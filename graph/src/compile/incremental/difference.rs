@@ -155,6 +155,7 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
         transfers,
         uses,
         any_queue,
+        both_eyes,
         side_effect,
         params,
         constants,
@@ -178,6 +179,7 @@ fn pass(old: &Pass, new: &Pass) -> Difference {
         && old.transfers == *transfers
         && old.uses == *uses
         && old.any_queue == *any_queue
+        && old.both_eyes == *both_eyes
         && old.needs == *needs
         && old.constants == *constants;
     if !same {

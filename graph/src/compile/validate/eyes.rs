@@ -1,7 +1,7 @@
 //! Images that hold both eyes' parts are used for both eyes at once.
 
 use crate::base::{Code, Diagnostic, Span};
-use crate::frame::{EyeForm, Frame, Image, ImageIndex, Pass, Resource, Stereo};
+use crate::frame::{Draw, EyeForm, Frame, Image, ImageIndex, Pass, Resource, Stereo};
 use crate::vulkan::Shape;
 use std::collections::HashSet;
 
@@ -34,11 +34,15 @@ pub(super) fn pass(frame: &Frame, pass: &Pass, errors: &mut Vec<Diagnostic>) {
             format!("`{}` {what} `{name}`, which holds both eyes' parts", pass.name),
         ));
     };
-    let own = pass.attachments().next().and_then(|(image, _)| eyes(image));
-    for storage in pass.storage.iter().filter(|it| eyes(it.image).is_some()) {
+    let target = pass.attachments().next().filter(|(image, _)| eyes(*image).is_some());
+    if let Some((image, _)) = target.filter(|_| pass.work.draws(Draw::is_custom) && !pass.both_eyes) {
+        wrong(image, pass.span, "is recorded by a program that doesn't say `both_eyes`, and draws into");
+    }
+    let (draws, own) = (pass.work.is_draw(), target.is_some() || pass.both_eyes);
+    for storage in pass.storage.iter().filter(|it| eyes(it.image).is_some() && (draws || !pass.both_eyes)) {
         wrong(storage.image, storage.span, "accesses as storage");
     }
-    for sampled in pass.sampled.iter().filter(|it| eyes(it.image).is_some() && it.eye.is_none() && own.is_none()) {
+    for sampled in pass.sampled.iter().filter(|it| eyes(it.image).is_some() && it.eye.is_none() && !own) {
         wrong(sampled.image, sampled.span, "draws for one eye and doesn't say which it samples of");
     }
     let transfers = || {
@@ -49,7 +53,7 @@ pub(super) fn pass(frame: &Frame, pass: &Pass, errors: &mut Vec<Diagnostic>) {
     };
     let all_alike = transfers().map(|(image, _)| eyes(image)).collect::<HashSet<_>>().len() < 2;
     let copied_whole = pass.work.is_copy() && all_alike && transfers().count() == 2;
-    let whole = copied_whole || pass.work.filled().is_some();
+    let whole = copied_whole || pass.work.filled().is_some() || pass.both_eyes;
     for (image, span) in transfers().filter(|(image, _)| eyes(*image).is_some() && !whole) {
         wrong(image, span, "transfers");
     }

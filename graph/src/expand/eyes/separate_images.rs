@@ -167,6 +167,11 @@ fn only_one_by_one(pass: &Pass, eyes: &Eyes<'_>) -> Option<&'static str> {
         Work::Copy { .. } => Some("copies to or from a buffer"),
         Work::Blit { .. } => Some("scales by a blit"),
         Work::Dispatch { .. } => Some("runs a compute shader"),
+        // The program's instances are counted for one eye, as the file's are.
+        Work::Custom { .. } if pass.both_eyes && eyes.stereo != Stereo::Multiview && (eyes.by_instance)(pass) => {
+            Some("draws vertices with attributes by instance")
+        }
+        Work::Custom { .. } if pass.both_eyes => None,
         Work::Custom { .. } => Some("is recorded by the program"),
     }
 }
@@ -187,16 +192,19 @@ fn used_by_texels(pass: &Pass) -> impl Iterator<Item = &ImagePart> {
     let partial = !pass.work.transfer_reads().iter().chain(pass.work.transfer_writes()).all(whole);
     let (reads, writes) = match &pass.work {
         Work::Copy { .. } | Work::Fill { .. } => (partial, partial),
+        Work::Custom { .. } if pass.both_eyes => (partial, partial),
         Work::Blit { .. } | Work::Custom { .. } => (true, false),
         Work::Draw { .. } | Work::Dispatch { .. } => (false, false),
     };
-    let used = move |of: Use| match of {
-        Use::StorageRead | Use::Storage => true,
+    // Commands of the program's own, outside of rendering scopes, reach both eyes' parts.
+    let stores_both = pass.both_eyes && !pass.is_drawn();
+    let used = move |part: &ImagePart, of: Use| match of {
+        Use::StorageRead | Use::Storage => !stores_both || is_part(part),
         Use::TransferRead => reads,
         Use::TransferWrite => writes,
         Use::Sampled | Use::LeftOut | Use::Uniform | Use::Drawn | Use::Counts | Use::Measured | Use::Target => false,
     };
-    pass.image_parts().filter(move |(_, of)| used(*of)).map(|(part, _)| part)
+    pass.image_parts().filter(move |(part, of)| used(part, *of)).map(|(part, _)| part)
 }
 
 fn whole(part: &Part) -> bool {

@@ -98,6 +98,7 @@ pub(in crate::expand) fn draft(
         transfers: Vec::new(),
         uses: Vec::new(),
         any_queue: pass.any_queue,
+        both_eyes: pass.both_eyes && touches_both(resources, pass),
         side_effect: pass.side_effect,
         params: Vec::new(),
         constants: constants::as_written(pass),
@@ -132,6 +133,14 @@ pub(in crate::expand) fn draft(
     transferred(resources, pass, &mut lowered, errors);
     lowered.uses = pass.uses.iter().map(|declared| declared_use(resources, declared, errors)).collect();
     lowered
+}
+
+/// Whether an image that it touches holds both eyes' parts, and neither eye's alone is meant.
+fn touches_both(resources: &Resources<'_>, pass: &language::Pass) -> bool {
+    let both = |part: &language::ImagePart| {
+        part.eye.is_none() && resources.image(part.image.index).is_some_and(|image| image.image.eyes.is_some())
+    };
+    pass.image_parts().any(|(part, _)| both(part))
 }
 
 fn declared_use(

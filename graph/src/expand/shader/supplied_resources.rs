@@ -45,9 +45,9 @@ pub(in crate::expand) fn needs(
     pass: &language::Pass,
     interface: &ShaderInterface,
 ) -> Vec<Need> {
-    // A compute shader that reads nothing of what is brought along has nothing of it bound.
-    let dispatched = pass.work.is_dispatch();
-    let binds = !dispatched || interface.bindings.iter().any(|binding| binding.set != PASS_SET);
+    // Compute passes and draws of a pass's own vertices that read nothing of what is brought along have nothing of it bound.
+    let may_do_without = pass.work.is_dispatch() || pass.work.draws(Draw::has_own_vertices);
+    let binds = !may_do_without || interface.bindings.iter().any(|binding| binding.set != PASS_SET);
     let brought = binds.then(|| shaders.brought_along(pass)).flatten();
     needs_in_pass(interface, brought.as_deref(), shaders.program_sets(), pass.color.len())
 }

@@ -68,6 +68,9 @@ fields! {
         pub(crate) uses: Option<Leaf<'src>> => declared_uses::USES,
         /// `Any`: the program may be asked to record it for a queue for compute, where that gains. `Graphics` if left out.
         pub(crate) queue: Option<Leaf<'src>> => declared_uses::QUEUE,
+        /// `true`: the program records it for [both eyes at once](#two-eyes), where the frame is drawn so; for one eye after the other if
+        /// left out.
+        pub(crate) both_eyes: Option<Leaf<'src>> => Form::Truth,
         /// Values for the members of the shader's block `params`, by name: vectors and columns of matrices in `(…, …)`.
         pub(crate) params: Option<Leaf<'src>> => bindings::PARAMS,
         /// Values for the shader's specialization constants, by name, or by number where they have none: `"constant 0"`.

@@ -74,6 +74,7 @@ impl Context<'_> {
         let covers = optional(fields.covers, |leaf| self.truth(leaf).map(FieldValue::alone));
         let uses = optional(fields.uses, |leaf| self.declared_uses(leaf));
         let run = optional(fields.run, |leaf| self.cadence(leaf));
+        let both_eyes = optional(fields.both_eyes, |leaf| self.truth(leaf).map(FieldValue::alone));
         let queue = values::optional_choice(self.reader, fields.queue, "a queue", &QUEUES);
         let params = optional(fields.params, |leaf| self.params(leaf));
         let constants = optional(fields.constants, |leaf| self.constants(leaf));
@@ -92,11 +93,11 @@ impl Context<'_> {
             ReadableValue(alpha_to_coverage),
             ReadableValue(covers),
         );
-        let others = (ReadableValue(side_effect), ReadableValue(uses), ReadableValue(run));
+        let others = (ReadableValue(side_effect), ReadableValue(uses), ReadableValue(run), ReadableValue(both_eyes));
         let parts = (ReadableValue(work), bindings, (ReadableValue(vertex), ReadableValue(index)), targets, others);
         reported(self.reader, parts, move |reader, (work, bindings, (vertex, index), targets, others)| {
             let (sample, storage, uniform, (params, constants)) = bindings;
-            let (side_effect, uses, run) = others;
+            let (side_effect, uses, run, both_eyes) = others;
             let (color, depth, raster, alpha_to_coverage, covers) = targets;
             if let (Some(color), Some(depth)) = (&color, &depth) {
                 let (draws, color) = (draws.then_some(span), color.as_deref().unwrap_or(&[]));
@@ -122,6 +123,7 @@ impl Context<'_> {
                 covers: covers?.unwrap_or_default(),
                 uses: uses?.unwrap_or_default(),
                 any_queue,
+                both_eyes: both_eyes?.unwrap_or_default(),
                 params: params?.unwrap_or_default(),
                 constants: constants?.unwrap_or_default(),
                 side_effect: side_effect?.unwrap_or_default(),

@@ -9,7 +9,7 @@ use crate::ron::{Reader, Shape};
 use std::fmt::Display;
 
 /// Fields of a pass that have a meaning beside some kinds of work alone.
-pub(crate) const GOES_WITH: [(&str, &[&str]); 18] = [
+pub(crate) const GOES_WITH: [(&str, &[&str]); 19] = [
     ("shader", &["draw"]),
     ("groups", &["dispatch"]),
     ("sample", &["draw", "dispatch", "custom"]),
@@ -28,6 +28,7 @@ pub(crate) const GOES_WITH: [(&str, &[&str]); 18] = [
     ("writes", &["custom"]),
     ("uses", &["custom"]),
     ("queue", &["custom"]),
+    ("both_eyes", &["custom"]),
 ];
 
 impl Context<'_> {
@@ -110,6 +111,7 @@ fn fits(reader: &mut Reader, fields: &PassFields<'_>, what: impl Display, word: 
         fields.writes,
         fields.uses,
         fields.queue,
+        fields.both_eyes,
     ];
     for ((field, words), leaf) in GOES_WITH.into_iter().zip(values) {
         let Some(leaf) = leaf.filter(|_| !words.contains(&word)) else { continue };

@@ -47,6 +47,8 @@ pub struct Pass {
     pub uses: Vec<DeclaredUse>,
     /// Whether a custom pass may be recorded for another queue than that for graphics.
     pub any_queue: bool,
+    /// Whether the program records a custom pass for both eyes at once, where the frame is drawn so.
+    pub both_eyes: bool,
     /// Values for the shader's block `params`.
     pub params: Vec<Param>,
     /// Values for the shader's specialization constants.
@@ -501,6 +503,7 @@ impl Pass {
             covers: false,
             uses: Vec::new(),
             any_queue: false,
+            both_eyes: false,
             params: Vec::new(),
             constants: Vec::new(),
             side_effect: false,

@@ -238,6 +238,9 @@ impl<'p> Text<'p> {
         if let Some(redraws) = &pass.redraws {
             text += &format!(", again as `{}` does, depth only", ShownText(redraws));
         }
+        if pass.both_eyes {
+            text += ", for both eyes at once";
+        }
         if pass.alpha_to_coverage {
             text += ", alpha to coverage";
         }

@@ -5,7 +5,7 @@ use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::MemoryEstimate;
 use framewright_graph::frame::{
-    Blend, Eye, EyeForm, Image, ImageIndex, Pass, Resource, Stereo, TransferUse, Work as Described,
+    Blend, Draw, Eye, EyeForm, Image, ImageIndex, Pass, Resource, Stereo, TransferUse, Work as Described,
 };
 use framewright_graph::plan::{Plan, RenderScope, Side, Transfer, Work};
 use framewright_graph::verify::verify;
@@ -221,4 +221,46 @@ fn an_image_in_another_form_than_the_rest_of_its_scope_is_found() {
     let said: Vec<String> = verify(&plan).iter().map(ToString::to_string).collect();
     let expected = "`color (resolved)`: is drawn beside an image that holds both eyes' parts otherwise";
     assert!(said.iter().any(|it| it.contains(expected)), "{said:#?}");
+}
+
+/// DO-12: what the program records for both eyes at once says so, and has something of both.
+#[test]
+fn what_the_program_does_not_record_for_both_eyes_is_found() {
+    for (stereo, form) in MODES {
+        let mut raster = Raster::default();
+        let screen = raster.image("screen", R8G8B8A8_SRGB, 1);
+        raster.objects("draw").clear(screen);
+        let mut frame = raster.output(screen);
+        (frame.stereo, frame.images[0].eyes) = (stereo, Some(form));
+        let draw = Draw::Custom;
+        frame.passes[0].work = Described::Draw { draw, shader: "it".into(), discards: false, per_sample: false };
+        frame.passes[0].both_eyes = true;
+        let (resource, range, span) = (Resource::Image(screen), Subresources::WHOLE, Span::NONE);
+        let used = TransferUse { resource, range, frames_ago: 0, span, write: false, keeps: false };
+        let mark = Pass::new("mark", Described::Custom { callback: "it".into() });
+        frame.passes.push(Pass { transfers: vec![used], both_eyes: true, side_effect: true, ..mark });
+        let device = raster::device();
+        let plan = compile(&frame, &device, &mut MemoryEstimate(&device), &Options::default()).expect("it is valid");
+        assert_eq!(verify(&plan), [], "{}", plan.tree());
+        let said = |change: &dyn Fn(&mut Plan)| {
+            let mut plan = plan.clone();
+            change(&mut plan);
+            verify(&plan).iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+        };
+        let custom = |plan: &mut Plan, change: &dyn Fn(&mut framewright_graph::plan::Pass)| {
+            for step in &mut plan.steps {
+                match &mut step.work {
+                    Work::Custom(pass) => change(pass),
+                    _ => {}
+                }
+            }
+        };
+        let scope_of_one = said(&|plan| scope(plan, "draw").passes[0].both_eyes = false);
+        let expected = "`screen`: holds both eyes' parts, and the program records `draw` for one eye";
+        assert!(scope_of_one.contains(expected), "{stereo:?}: {scope_of_one}");
+        let outside_of_one = said(&|plan| custom(plan, &|pass| pass.both_eyes = false));
+        assert!(outside_of_one.contains("and a pass accesses it as one"), "{stereo:?}: {outside_of_one}");
+        let of_none = said(&|plan| custom(plan, &|pass| pass.accesses[0].eye = Some(Eye::Left)));
+        assert!(of_none.contains("is recorded for both eyes, and touches nothing that holds"), "{stereo:?}: {of_none}");
+    }
 }

@@ -1,4 +1,4 @@
-//! Full-screen passes and compute passes see camera, lights and objects (EM-5): each eye its own, in every way to draw for two
+//! Full-screen passes, compute passes and draws of a file's own vertices see camera, lights and objects (EM-5, DO-12): each eye its own, in every way to draw for two
 //! eyes, and on a rotated screen.
 
 use framewright_graph::compile::Options;
@@ -19,8 +19,8 @@ const EYES_APART: f64 = 0.25;
 /// What the outputs of `tests/pipelines/camera_everywhere.ron` hold.
 struct Seen {
     plan: Plan,
-    /// For each eye what the compute pass wrote, and what the full-screen pass drew.
-    towards: [[Vec<[f64; 4]>; 2]; 2],
+    /// For each eye what the compute pass wrote, and what the full-screen pass, the vertices and the counted vertices drew.
+    towards: [[Vec<[f64; 4]>; 4]; 2],
     /// For each eye.
     screen: [Vec<u8>; 2],
     /// Of each object.
@@ -55,9 +55,9 @@ fn seen(device: &Device, scene: &Scene, ways: Ways) -> Result<Seen, Box<dyn Erro
             (None, None) => [left.clone(), left],
         });
     }
-    let [computed, drawn, screen] = &pictures[..] else { return Err("no three pictures".into()) };
+    let [computed, drawn, own, counted, screen] = &pictures[..] else { return Err("no five pictures".into()) };
     let numbers = |texels: &Texels| floats(texels).as_chunks::<4>().0.to_vec();
-    let towards = [0, 1].map(|eye| [numbers(&computed[eye]), numbers(&drawn[eye])]);
+    let towards = [0, 1].map(|eye| [computed, drawn, own, counted].map(|of| numbers(&of[eye])));
     let screen = [0, 1].map(|eye| screen[eye].bytes.clone());
     let words = executor.read_buffer("places")?;
     let words: Vec<f64> = words.as_chunks().0.iter().map(|word| f64::from(f32::from_ne_bytes(*word))).collect();
@@ -101,14 +101,15 @@ fn all_ways(device: &Device) -> Vec<Ways> {
 }
 
 #[test]
-fn compute_and_full_screen_passes_see_the_camera_of_their_eye_in_every_way() -> Result<(), Box<dyn Error>> {
+fn passes_of_all_kinds_see_the_camera_of_their_eye_in_every_way() -> Result<(), Box<dyn Error>> {
     let Some(device) = device() else { return Ok(()) };
     let scene = scene()?;
     for ways in all_ways(device) {
         let seen = seen(device, &scene, ways)?;
         for (eye, side) in [-0.5, 0.5].into_iter().enumerate() {
             let right = if ways.stereo == Stereo::Off { 0.0 } else { side * EYES_APART };
-            for (what, texels) in ["computed", "drawn"].into_iter().zip(&seen.towards[eye]) {
+            for (what, texels) in ["computed", "drawn", "by vertices", "by counts"].into_iter().zip(&seen.towards[eye])
+            {
                 assert_eq!(texels.len(), (EXTENT[0] * EXTENT[1]) as usize);
                 for (pixel, found) in texels.iter().enumerate() {
                     let wanted = expected(&scene.camera, pixel, right);

@@ -2,6 +2,7 @@
 //! Others are drawn for one eye after the other, and the frame says why.
 
 mod apart;
+mod recorded;
 
 use crate::testing::pipelines::{INPUTS, frame, right, wrong};
 use crate::testing::plans::shipped;

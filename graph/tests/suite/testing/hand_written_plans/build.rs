@@ -173,6 +173,7 @@ pub(crate) fn draw(
         buffers: Vec::new(),
         local_barrier: false,
         any_queue: false,
+        both_eyes: false,
         merged: None,
     }
 }
