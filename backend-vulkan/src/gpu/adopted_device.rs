@@ -33,7 +33,7 @@ pub struct AdoptedDevice<'p> {
     /// The extensions that the device was created with. `VK_KHR_dynamic_rendering_local_read`,
     /// `VK_KHR_fragment_shader_barycentric`, `VK_EXT_vertex_attribute_divisor` or `VK_KHR_vertex_attribute_divisor`, `VK_KHR_swapchain`,
     /// `VK_EXT_queue_family_foreign`, `VK_KHR_acceleration_structure`, `VK_KHR_ray_query`, `VK_KHR_ray_tracing_pipeline`,
-    /// `VK_KHR_ray_tracing_maintenance1` and `VK_EXT_mesh_shader` are used.
+    /// `VK_KHR_ray_tracing_maintenance1`, `VK_KHR_fragment_shading_rate` and `VK_EXT_mesh_shader` are used.
     pub device_extensions: &'p [&'p CStr],
     /// The features that the device was created with, as they were chained to its creation. `VkPhysicalDeviceVulkan14Features` isn't read:
     /// of what it holds, local reads and `vertexAttributeInstanceRateDivisor` are used where the structures and extensions of their own are on.

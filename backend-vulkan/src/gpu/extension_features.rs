@@ -73,6 +73,8 @@ structures! {
         PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR, ray_tracing_pipeline;
     tracing_maintenance: PhysicalDeviceRayTracingMaintenance1FeaturesKHR, khr::ray_tracing_maintenance1::NAME,
         PHYSICAL_DEVICE_RAY_TRACING_MAINTENANCE_1_FEATURES_KHR, ray_tracing_maintenance1;
+    shading_rates: PhysicalDeviceFragmentShadingRateFeaturesKHR, khr::fragment_shading_rate::NAME,
+        PHYSICAL_DEVICE_FRAGMENT_SHADING_RATE_FEATURES_KHR, attachment_fragment_shading_rate;
     mesh: PhysicalDeviceMeshShaderFeaturesEXT, ext::mesh_shader::NAME,
         PHYSICAL_DEVICE_MESH_SHADER_FEATURES_EXT, task_shader | mesh_shader;
 }

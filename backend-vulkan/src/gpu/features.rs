@@ -90,7 +90,7 @@ const OPTIONAL_FEATURES: [OptionalFeature; 4] = [
 pub(super) const DIVISOR: &CStr = ext::vertex_attribute_divisor::NAME;
 
 /// Features that come with an extension of the device: its name, and the flag. They are used where a device has them.
-const OF_EXTENSIONS: [(&CStr, Flag); 10] = [
+const OF_EXTENSIONS: [(&CStr, Flag); 11] = [
     (khr::dynamic_rendering_local_read::NAME, LOCAL_READ_FLAG),
     (khr::fragment_shader_barycentric::NAME, |it| &mut it.of_extensions.barycentric.fragment_shader_barycentric),
     (DIVISOR, |it| &mut it.of_extensions.divisor.vertex_attribute_instance_rate_divisor),
@@ -99,6 +99,7 @@ const OF_EXTENSIONS: [(&CStr, Flag); 10] = [
     (khr::ray_query::NAME, |it| &mut it.of_extensions.ray_query.ray_query),
     (khr::ray_tracing_pipeline::NAME, |it| &mut it.of_extensions.ray_tracing.ray_tracing_pipeline),
     (khr::ray_tracing_maintenance1::NAME, |it| &mut it.of_extensions.tracing_maintenance.ray_tracing_maintenance1),
+    (khr::fragment_shading_rate::NAME, |it| &mut it.of_extensions.shading_rates.attachment_fragment_shading_rate),
     (ext::mesh_shader::NAME, |it| &mut it.of_extensions.mesh.task_shader),
     (ext::mesh_shader::NAME, |it| &mut it.of_extensions.mesh.mesh_shader),
 ];
@@ -109,7 +110,8 @@ const STRUCTURES: &CStr = khr::acceleration_structure::NAME;
 const LOCAL_READ_FLAG: Flag = |it| &mut it.of_extensions.local_read.dynamic_rendering_local_read;
 
 /// What Vulkan wants switched on together with a feature: its name, that of the other one. A row comes before those that it leads to.
-const TOGETHER: [(&str, &str); 5] = [
+const TOGETHER: [(&str, &str); 6] = [
+    ("taskShader", "meshShader"),
     ("rayQuery", "accelerationStructure"),
     ("rayTracingPipeline", "accelerationStructure"),
     ("rayTracingMaintenance1", "accelerationStructure"),

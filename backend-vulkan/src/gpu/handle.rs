@@ -140,7 +140,8 @@ impl Gpu {
         // SAFETY: `physical` belongs to the instance.
         let properties = unsafe { instance.raw.get_physical_device_properties(physical) };
         let made_of_device = || {
-            let allocator = allocator.map_or_else(|| own_allocator(&instance.raw, physical, &raw, features.addresses()), Ok)?;
+            let allocator =
+                allocator.map_or_else(|| own_allocator(&instance.raw, physical, &raw, features.addresses()), Ok)?;
             Ok((allocator, PipelineCache::open(&raw, cache, &summary.identity)?))
         };
         let (allocator, pipeline_cache) = made_of_device().inspect_err(|_| {

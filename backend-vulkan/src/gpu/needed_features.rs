@@ -3,7 +3,7 @@
 use super::features::OptionalFeature;
 
 /// Features that are used where a device has them, and that pipelines can need by their shaders and draws: profiles tell of these.
-pub(super) const NEEDED_FEATURES: [OptionalFeature; 69] = [
+pub(super) const NEEDED_FEATURES: [OptionalFeature; 70] = [
     ("imageCubeArray", "shaders that see several cubes at once", |it| &mut it.core.image_cube_array),
     (
         "shaderSampledImageArrayDynamicIndexing",
@@ -181,8 +181,13 @@ pub(super) const NEEDED_FEATURES: [OptionalFeature; 69] = [
     ("rayTracingPipeline", "ray-tracing pipelines of custom passes", |it| {
         &mut it.of_extensions.ray_tracing.ray_tracing_pipeline
     }),
-    ("rayTracingMaintenance1", "copies of acceleration structures, and shader binding tables, in custom passes", |it| {
-        &mut it.of_extensions.tracing_maintenance.ray_tracing_maintenance1
+    (
+        "rayTracingMaintenance1",
+        "copies of acceleration structures, and shader binding tables, in custom passes",
+        |it| &mut it.of_extensions.tracing_maintenance.ray_tracing_maintenance1,
+    ),
+    ("attachmentFragmentShadingRate", "images of shading rates, in custom passes", |it| {
+        &mut it.of_extensions.shading_rates.attachment_fragment_shading_rate
     }),
     ("taskShader", "task shaders of custom passes", |it| &mut it.of_extensions.mesh.task_shader),
     ("meshShader", "mesh shaders of custom passes", |it| &mut it.of_extensions.mesh.mesh_shader),

@@ -39,7 +39,9 @@ pub(super) fn stores(module: &IndexedModule<'_>) -> bool {
     if followed_types(module).next().is_none() {
         return false;
     }
-    let types: HashMap<u32, u32> = module.code().filter_map(|it| Some((it.result_id?, it.result_type?))).collect();
+    let parameters = module.module.functions.iter().flat_map(|it| &it.parameters);
+    let values = module.code().chain(parameters);
+    let types: HashMap<u32, u32> = values.filter_map(|it| Some((it.result_id?, it.result_type?))).collect();
     let is_behind = |pointer: u32| types.get(&pointer).and_then(|ty| module.global(*ty)).is_some_and(is_reference);
     module.code().any(|it| stored(it).is_some_and(is_behind))
 }

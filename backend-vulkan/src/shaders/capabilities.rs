@@ -154,11 +154,7 @@ const UNSUPPORTED: &[UnsupportedFeature] = &[
         &["image2DMS", "uimage2DMS", "iimage2DMS"],
         "storage images with several samples: sample them by a `sampler2DMS`",
     ),
-    (
-        &[Capability::PhysicalStorageBufferAddresses],
-        addresses::WORDS,
-        addresses::UNSAID,
-    ),
+    (&[Capability::PhysicalStorageBufferAddresses], addresses::WORDS, addresses::UNSAID),
     (
         &[Capability::FragmentShadingRateKHR],
         &["gl_ShadingRateEXT", "gl_PrimitiveShadingRateEXT"],

@@ -6,11 +6,14 @@ mod frames;
 #[path = "../testing/mod.rs"]
 mod testing;
 
+mod acceleration_structures;
+mod addressed;
 mod adopted;
 mod allocations;
 mod bindless;
 mod blending;
 mod breadcrumbs;
+mod buffer_references;
 mod cadence;
 mod clear_values;
 mod compute;
@@ -35,6 +38,7 @@ mod own_pipelines;
 mod presenting;
 mod program_sets;
 mod queues;
+mod ray_queries;
 mod resolves;
 mod state;
 mod stray_vertices;
