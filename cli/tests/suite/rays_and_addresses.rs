@@ -78,7 +78,10 @@ fn do_4_rays_are_traced_where_the_device_traces_them() {
     assert!(alone.contains("uses `scene` (set 1, binding 0)"), "{alone}");
     place.file("k.frag", TRACES.replace("set = 1", "set = 0"));
     let bound = place.run(&[&CHECK[..], &["--device", "nvidia-rtx-2080"]].concat()).exits(1).err;
-    assert!(bound.contains("an acceleration structure") && bound.contains("only sets that the program binds"), "{bound}");
+    assert!(
+        bound.contains("an acceleration structure") && bound.contains("only sets that the program binds"),
+        "{bound}"
+    );
 }
 
 #[test]
@@ -97,7 +100,10 @@ fn do_4_addresses_are_followed_where_the_device_has_them_and_the_program_says_so
 fn do_4_no_file_makes_up_the_address_of_a_structure() {
     let made_up = TRACES
         .replace("layout(set = 1, binding = 0) uniform accelerationStructureEXT scene;", "")
-        .replace("#extension GL_EXT_ray_query : require", "#extension GL_EXT_ray_query : require\n#extension GL_EXT_ray_tracing : require")
+        .replace(
+            "#extension GL_EXT_ray_query : require",
+            "#extension GL_EXT_ray_query : require\n#extension GL_EXT_ray_tracing : require",
+        )
         .replace("ray, scene", "ray, accelerationStructureEXT(uvec2(64, 0))");
     let nvidia = ["--device", "nvidia-rtx-2080"];
     let refused = place(&made_up, &interface("UniformBuffer", "")).run(&[&CHECK[..], &nvidia].concat()).exits(1).err;

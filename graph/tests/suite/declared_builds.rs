@@ -49,9 +49,7 @@ fn do_8_builds_wait_for_what_they_read_and_are_waited_for() {
     let barriers: Vec<&MemoryBarrier> = plan.steps.iter().flat_map(|step| &step.memory_barriers).collect();
     let has = |from: (Stages, Accesses), to: (Stages, Accesses)| {
         let is = |it: &&&MemoryBarrier| {
-            it.src_stages.contains(from.0)
-                && it.src_accesses.contains(from.1)
-                && (it.dst_stages, it.dst_accesses) == to
+            it.src_stages.contains(from.0) && it.src_accesses.contains(from.1) && (it.dst_stages, it.dst_accesses) == to
         };
         assert!(barriers.iter().any(|it| is(&it)), "{}", plan.tree());
     };

@@ -180,8 +180,10 @@ impl Check<'_> {
         let drawn = pass.work.draws(Draw::is_custom);
         let rates = Accesses::FRAGMENT_SHADING_RATE_ATTACHMENT_READ_KHR;
         if drawn && (accesses.intersects(rates) || stages.intersects(Stages::FRAGMENT_SHADING_RATE_ATTACHMENT_KHR)) {
-            let message = format!("`{name}` is declared as the shading rates of the pass's rendering scope, which has none");
-            let help = "a custom pass without targets begins a rendering scope of its own, and attaches the rates there";
+            let message =
+                format!("`{name}` is declared as the shading rates of the pass's rendering scope, which has none");
+            let help =
+                "a custom pass without targets begins a rendering scope of its own, and attaches the rates there";
             return Some(self.wrong(message, help));
         }
         let foreign = stages - DRAWN;
