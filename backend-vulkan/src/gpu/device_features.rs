@@ -105,7 +105,7 @@ fn refuse(instance: &ash::Instance, physical: vk::PhysicalDevice, missing: Vec<S
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gpu::features::DIVISOR;
+    use crate::gpu::extension_features::DIVISOR;
 
     #[test]
     fn do_11_the_divisor_comes_with_either_extension() {

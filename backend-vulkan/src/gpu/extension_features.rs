@@ -1,9 +1,11 @@
 //! The structures of features that come with an extension of the device.
 
-use super::features::DIVISOR;
 use ash::{ext, khr, vk};
 use std::ffi::CStr;
 use std::marker::PhantomData;
+
+/// The extension of the divisor, which the Khronos Group has taken over under a name of its own: either will do.
+pub(super) const DIVISOR: &CStr = ext::vertex_attribute_divisor::NAME;
 
 /// Each structure: its field, its type, its extension, the number that tells its type, and the flags that are used of it.
 macro_rules! structures {

@@ -1,6 +1,6 @@
 //! The features that a device must have, and those that are used where it has them.
 
-use super::extension_features::ExtensionFeatures;
+use super::extension_features::{DIVISOR, ExtensionFeatures};
 use super::minimum::has_extensions;
 use super::needed_features::NEEDED_FEATURES;
 use ash::{ext, khr, vk};
@@ -85,9 +85,6 @@ const OPTIONAL_FEATURES: [OptionalFeature; 4] = [
     ("multiview", "two eyes in one draw, in layers", |it| &mut it.v1_1.multiview),
     ("shaderOutputLayer", "two eyes by instances, in layers", |it| &mut it.v1_2.shader_output_layer),
 ];
-
-/// The extension of the divisor, which the Khronos Group has taken over under a name of its own: either will do.
-pub(super) const DIVISOR: &CStr = ext::vertex_attribute_divisor::NAME;
 
 /// Features that come with an extension of the device: its name, and the flag. They are used where a device has them.
 const OF_EXTENSIONS: [(&CStr, Flag); 11] = [

@@ -330,7 +330,7 @@ fn do_4_acceleration_structures_and_addresses_are_written_and_read_again() {
     let none = read(&TRACED.replace("addresses: true", "addresses: false")).expect("an interface");
     assert!(!none.addresses() && none.sets() == interfaces.sets());
     let shown = read(&TRACED.replace("addresses: true", "addresses: all")).expect_err("a mistake");
-    assert!(shown.contains("12:16"), "{shown}");
+    assert!(shown.contains("13:16"), "{shown}");
     let shown = read(&TRACED.replace("Structure,", "Structure, count: 17,")).expect_err("a mistake");
     assert!(shown.contains("17 acceleration structures; every device that has such allows 16"), "{shown}");
 }
