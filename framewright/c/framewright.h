@@ -291,7 +291,7 @@ typedef struct {
 typedef struct {
     // Its number, 1 to 3. The draws of a scene have set 1 and set 2.
     uint32_t set;
-    // Its bindings: types of buffers, texel buffers, images and samplers, for vertex, fragment and compute shaders. Other stages take a
+    // Its bindings: types of buffers, texel buffers, images, samplers and acceleration structures, for vertex, fragment and compute shaders. Other stages take a
     // `layout`.
     const VkDescriptorSetLayoutBinding *bindings;
     // The flags of each binding; NULL: none has any.
@@ -321,6 +321,8 @@ typedef struct {
     // Commands that compile shaders in HLSL, Slang and WGSL, each with its language: `hlsl=dxc`, `slang=slangc -O0`. Later ones are
     // stronger. docs/hlsl.md has more.
     FramewrightNames shader_compilers;
+    // The program hands addresses of buffers out in its sets, and vouches for the shaders that follow them. 0 is false.
+    uint32_t addresses;
 } FramewrightRendererOptions;
 
 // Records a pass: commands that touch what the pipeline says that the pass touches, and what is the program's own. Returns 0 if it

@@ -31,8 +31,9 @@ pub struct AdoptedDevice<'p> {
     /// The device.
     pub device: &'p ash::Device,
     /// The extensions that the device was created with. `VK_KHR_dynamic_rendering_local_read`,
-    /// `VK_KHR_fragment_shader_barycentric`, `VK_EXT_vertex_attribute_divisor` or `VK_KHR_vertex_attribute_divisor`, `VK_KHR_swapchain` and
-    /// `VK_EXT_queue_family_foreign` are used.
+    /// `VK_KHR_fragment_shader_barycentric`, `VK_EXT_vertex_attribute_divisor` or `VK_KHR_vertex_attribute_divisor`, `VK_KHR_swapchain`,
+    /// `VK_EXT_queue_family_foreign`, `VK_KHR_acceleration_structure`, `VK_KHR_ray_query`, `VK_KHR_ray_tracing_pipeline`,
+    /// `VK_KHR_ray_tracing_maintenance1`, `VK_KHR_fragment_shading_rate` and `VK_EXT_mesh_shader` are used.
     pub device_extensions: &'p [&'p CStr],
     /// The features that the device was created with, as they were chained to its creation. `VkPhysicalDeviceVulkan14Features` isn't read:
     /// of what it holds, local reads and `vertexAttributeInstanceRateDivisor` are used where the structures and extensions of their own are on.
@@ -57,7 +58,8 @@ impl Device {
     /// # Safety
     /// - The instance, the device and the queues live until everything made from the adopted device is gone, and belong together.
     /// - Extensions and features are those that they were created with; each structure in the chain of features is valid.
-    /// - An allocator is one of this device, made without `buffer_device_address` unless that feature is switched on.
+    /// - An allocator is one of this device, made without `buffer_device_address` unless the feature `bufferDeviceAddress` is switched on; made
+    ///   with it where custom passes declare builds of acceleration structures, since their buffers have addresses.
     /// - Without `robustBufferAccess`, no index of a draw, an indirect draw or a shader reaches beyond its buffer.
     /// - While this crate draws, uploads or reads back, no other thread submits to these queues.
     pub unsafe fn adopt(program: &AdoptedDevice<'_>, helper: Option<Helper>) -> Result<Device, Error> {

@@ -105,13 +105,13 @@ fn refuse(instance: &ash::Instance, physical: vk::PhysicalDevice, missing: Vec<S
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gpu::features::DIVISOR;
+    use crate::gpu::extension_features::DIVISOR;
 
     #[test]
     fn do_11_the_divisor_comes_with_either_extension() {
         let has = |khr_divisor| {
             let mut has = Features { khr_divisor, ..Features::default() };
-            has.divisor.vertex_attribute_instance_rate_divisor = vk::TRUE;
+            has.of_extensions.divisor.vertex_attribute_instance_rate_divisor = vk::TRUE;
             has
         };
         let khr = khr::vertex_attribute_divisor::NAME;

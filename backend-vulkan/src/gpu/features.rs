@@ -1,10 +1,10 @@
 //! The features that a device must have, and those that are used where it has them.
 
+use super::extension_features::{DIVISOR, ExtensionFeatures};
 use super::minimum::has_extensions;
 use super::needed_features::NEEDED_FEATURES;
 use ash::{ext, khr, vk};
 use std::ffi::CStr;
-use std::marker::PhantomData;
 
 /// Feature structures in the order in which they are chained.
 #[derive(Default)]
@@ -13,9 +13,7 @@ pub(crate) struct Features {
     pub(super) v1_1: vk::PhysicalDeviceVulkan11Features<'static>,
     pub(super) v1_2: vk::PhysicalDeviceVulkan12Features<'static>,
     pub(super) v1_3: vk::PhysicalDeviceVulkan13Features<'static>,
-    pub(super) local_read: vk::PhysicalDeviceDynamicRenderingLocalReadFeaturesKHR<'static>,
-    pub(super) barycentric: vk::PhysicalDeviceFragmentShaderBarycentricFeaturesKHR<'static>,
-    pub(super) divisor: vk::PhysicalDeviceVertexAttributeDivisorFeaturesKHR<'static>,
+    pub(super) of_extensions: ExtensionFeatures,
     /// Whether the divisor comes with the extension of the Khronos Group alone.
     pub(super) khr_divisor: bool,
     pub(super) subgroups: Subgroups,
@@ -88,14 +86,34 @@ const OPTIONAL_FEATURES: [OptionalFeature; 4] = [
     ("shaderOutputLayer", "two eyes by instances, in layers", |it| &mut it.v1_2.shader_output_layer),
 ];
 
-/// The extension of the divisor, which the Khronos Group has taken over under a name of its own: either will do.
-pub(super) const DIVISOR: &CStr = ext::vertex_attribute_divisor::NAME;
-
 /// Features that come with an extension of the device: its name, and the flag. They are used where a device has them.
-const OF_EXTENSIONS: [(&CStr, Flag); 3] = [
-    (khr::dynamic_rendering_local_read::NAME, |it| &mut it.local_read.dynamic_rendering_local_read),
-    (khr::fragment_shader_barycentric::NAME, |it| &mut it.barycentric.fragment_shader_barycentric),
-    (DIVISOR, |it| &mut it.divisor.vertex_attribute_instance_rate_divisor),
+const OF_EXTENSIONS: [(&CStr, Flag); 11] = [
+    (khr::dynamic_rendering_local_read::NAME, LOCAL_READ_FLAG),
+    (khr::fragment_shader_barycentric::NAME, |it| &mut it.of_extensions.barycentric.fragment_shader_barycentric),
+    (DIVISOR, |it| &mut it.of_extensions.divisor.vertex_attribute_instance_rate_divisor),
+    (STRUCTURES, |it| &mut it.of_extensions.structures.acceleration_structure),
+    (STRUCTURES, |it| &mut it.of_extensions.structures.descriptor_binding_acceleration_structure_update_after_bind),
+    (khr::ray_query::NAME, |it| &mut it.of_extensions.ray_query.ray_query),
+    (khr::ray_tracing_pipeline::NAME, |it| &mut it.of_extensions.ray_tracing.ray_tracing_pipeline),
+    (khr::ray_tracing_maintenance1::NAME, |it| &mut it.of_extensions.tracing_maintenance.ray_tracing_maintenance1),
+    (khr::fragment_shading_rate::NAME, |it| &mut it.of_extensions.shading_rates.attachment_fragment_shading_rate),
+    (ext::mesh_shader::NAME, |it| &mut it.of_extensions.mesh.task_shader),
+    (ext::mesh_shader::NAME, |it| &mut it.of_extensions.mesh.mesh_shader),
+];
+
+/// The extension of acceleration structures, which asks for one more, and on which those of rays build.
+const STRUCTURES: &CStr = khr::acceleration_structure::NAME;
+
+const LOCAL_READ_FLAG: Flag = |it| &mut it.of_extensions.local_read.dynamic_rendering_local_read;
+
+/// What Vulkan wants switched on together with a feature: its name, that of the other one. A row comes before those that it leads to.
+const TOGETHER: [(&str, &str); 6] = [
+    ("taskShader", "meshShader"),
+    ("rayQuery", "accelerationStructure"),
+    ("rayTracingPipeline", "accelerationStructure"),
+    ("rayTracingMaintenance1", "accelerationStructure"),
+    ("descriptorBindingAccelerationStructureUpdateAfterBind", "accelerationStructure"),
+    ("accelerationStructure", "bufferDeviceAddress"),
 ];
 
 /// All names that [`Features::has`] knows.
@@ -108,8 +126,7 @@ pub(super) fn known_features() -> impl Iterator<Item = &'static str> {
 fn flag(name: &str) -> Option<Flag> {
     let minimum = MINIMUM_FEATURES.iter().find(|(known, _)| *known == name).map(|(_, flag)| *flag);
     let optional = || OPTIONAL_FEATURES.iter().chain(&NEEDED_FEATURES).find(|(known, ..)| *known == name);
-    let local: Flag = |it| &mut it.local_read.dynamic_rendering_local_read;
-    minimum.or_else(|| optional().map(|(.., flag)| *flag)).or_else(|| (name == LOCAL_READ).then_some(local))
+    minimum.or_else(|| optional().map(|(.., flag)| *flag)).or_else(|| (name == LOCAL_READ).then_some(LOCAL_READ_FLAG))
 }
 
 /// Whether a bit of a device's subgroup properties is set.
@@ -138,36 +155,24 @@ impl Features {
         let mut v1_1 = vk::PhysicalDeviceVulkan11Features::default();
         let mut v1_2 = vk::PhysicalDeviceVulkan12Features::default();
         let mut v1_3 = vk::PhysicalDeviceVulkan13Features::default();
-        let mut local = vk::PhysicalDeviceDynamicRenderingLocalReadFeaturesKHR::default();
-        let mut barycentric = vk::PhysicalDeviceFragmentShaderBarycentricFeaturesKHR::default();
-        let mut divisor = vk::PhysicalDeviceVertexAttributeDivisorFeaturesKHR::default();
-        let [has_local_read, has_barycentric, has_divisor] =
-            has_extensions(instance, physical, OF_EXTENSIONS.map(|(name, _)| name));
+        let mut of_extensions = ExtensionFeatures::default();
+        let names = OF_EXTENSIONS.map(|(name, _)| name);
+        let there = has_extensions(instance, physical, names);
+        let has = |name: &CStr| names.iter().zip(there).any(|(known, there)| there && *known == name);
         let [has_khr_divisor] = has_extensions(instance, physical, [khr::vertex_attribute_divisor::NAME]);
         let mut all = vk::PhysicalDeviceFeatures2::default();
         all = all.push_next(&mut v1_1).push_next(&mut v1_2).push_next(&mut v1_3);
-        if has_local_read {
-            all = all.push_next(&mut local);
-        }
-        if has_barycentric {
-            all = all.push_next(&mut barycentric);
-        }
-        if has_divisor || has_khr_divisor {
-            all = all.push_next(&mut divisor);
-        }
+        all = of_extensions.chain(all, |_, name| has(name) || name == DIVISOR && has_khr_divisor);
         // SAFETY: `physical` belongs to `instance`, and the chained structures outlive the call.
         unsafe { instance.get_physical_device_features2(physical, &mut all) };
         let core = all.features;
         v1_1.p_next = std::ptr::null_mut();
         v1_2.p_next = std::ptr::null_mut();
         v1_3.p_next = std::ptr::null_mut();
-        local.p_next = std::ptr::null_mut();
-        barycentric.p_next = std::ptr::null_mut();
-        divisor.p_next = std::ptr::null_mut();
         let subgroups = Subgroups::of(instance, physical);
         without_unchecked(instance, physical, &mut v1_2);
-        let khr_divisor = has_khr_divisor && !has_divisor;
-        Features { core, v1_1, v1_2, v1_3, local_read: local, barycentric, divisor, khr_divisor, subgroups }
+        let khr_divisor = has_khr_divisor && !has(DIVISOR);
+        Features { core, v1_1, v1_2, v1_3, of_extensions: of_extensions.unchained(), khr_divisor, subgroups }
     }
 
     /// The features that are switched on: those of the minimum, what [`optional_features`] lists beyond it, and local
@@ -193,137 +198,6 @@ impl Features {
         features
     }
 
-    /// The features in the chain that a device of `physical` was created with. A feature of Vulkan 1.0 to 1.3 may stand in the structure of its version,
-    /// or in that of the extension that it comes from.
-    ///
-    /// # Safety
-    /// `physical` belongs to `instance`, and each structure in the chain is valid, and of the type that it says.
-    pub(super) unsafe fn enabled(
-        instance: &ash::Instance,
-        physical: vk::PhysicalDevice,
-        chain: &vk::PhysicalDeviceFeatures2<'_>,
-    ) -> Features {
-        let subgroups = Subgroups::of(instance, physical);
-        let mut on = Features { core: chain.features, subgroups, ..Features::default() };
-        let mut next = chain.p_next.cast::<vk::BaseInStructure<'_>>().cast_const();
-        // SAFETY: the caller's word: it is null or a valid structure.
-        while let Some(structure) = unsafe { next.as_ref() } {
-            use vk::StructureType as Is;
-            macro_rules! read {
-                ($structure:ident) => {
-                    // SAFETY: the caller's word: the structure is of the type that it says.
-                    unsafe { &*next.cast::<vk::$structure<'_>>() }
-                };
-            }
-            macro_rules! whole {
-                ($structure:ident) => {
-                    vk::$structure { p_next: std::ptr::null_mut(), _marker: PhantomData, ..*read!($structure) }
-                };
-            }
-            match structure.s_type {
-                Is::PHYSICAL_DEVICE_VULKAN_1_1_FEATURES => on.v1_1 = whole!(PhysicalDeviceVulkan11Features),
-                Is::PHYSICAL_DEVICE_VULKAN_1_2_FEATURES => on.v1_2 = whole!(PhysicalDeviceVulkan12Features),
-                Is::PHYSICAL_DEVICE_VULKAN_1_3_FEATURES => on.v1_3 = whole!(PhysicalDeviceVulkan13Features),
-                Is::PHYSICAL_DEVICE_MULTIVIEW_FEATURES => {
-                    on.v1_1.multiview = read!(PhysicalDeviceMultiviewFeatures).multiview;
-                }
-                Is::PHYSICAL_DEVICE_DESCRIPTOR_INDEXING_FEATURES => {
-                    indexing(&mut on.v1_2, read!(PhysicalDeviceDescriptorIndexingFeatures));
-                }
-                Is::PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES => {
-                    on.v1_2.scalar_block_layout = read!(PhysicalDeviceScalarBlockLayoutFeatures).scalar_block_layout;
-                }
-                Is::PHYSICAL_DEVICE_UNIFORM_BUFFER_STANDARD_LAYOUT_FEATURES => {
-                    let it = read!(PhysicalDeviceUniformBufferStandardLayoutFeatures);
-                    on.v1_2.uniform_buffer_standard_layout = it.uniform_buffer_standard_layout;
-                }
-                Is::PHYSICAL_DEVICE_ZERO_INITIALIZE_WORKGROUP_MEMORY_FEATURES => {
-                    let it = read!(PhysicalDeviceZeroInitializeWorkgroupMemoryFeatures);
-                    on.v1_3.shader_zero_initialize_workgroup_memory = it.shader_zero_initialize_workgroup_memory;
-                }
-                Is::PHYSICAL_DEVICE_16BIT_STORAGE_FEATURES => {
-                    let it = read!(PhysicalDevice16BitStorageFeatures);
-                    on.v1_1.storage_buffer16_bit_access = it.storage_buffer16_bit_access;
-                    on.v1_1.uniform_and_storage_buffer16_bit_access = it.uniform_and_storage_buffer16_bit_access;
-                }
-                Is::PHYSICAL_DEVICE_8BIT_STORAGE_FEATURES => {
-                    let it = read!(PhysicalDevice8BitStorageFeatures);
-                    on.v1_2.storage_buffer8_bit_access = it.storage_buffer8_bit_access;
-                    on.v1_2.uniform_and_storage_buffer8_bit_access = it.uniform_and_storage_buffer8_bit_access;
-                }
-                Is::PHYSICAL_DEVICE_SHADER_FLOAT16_INT8_FEATURES => {
-                    let it = read!(PhysicalDeviceShaderFloat16Int8Features);
-                    on.v1_2.shader_float16 = it.shader_float16;
-                    on.v1_2.shader_int8 = it.shader_int8;
-                }
-                Is::PHYSICAL_DEVICE_SHADER_ATOMIC_INT64_FEATURES => {
-                    let it = read!(PhysicalDeviceShaderAtomicInt64Features);
-                    on.v1_2.shader_buffer_int64_atomics = it.shader_buffer_int64_atomics;
-                    on.v1_2.shader_shared_int64_atomics = it.shader_shared_int64_atomics;
-                }
-                Is::PHYSICAL_DEVICE_SHADER_DRAW_PARAMETERS_FEATURES => {
-                    let it = read!(PhysicalDeviceShaderDrawParametersFeatures);
-                    on.v1_1.shader_draw_parameters = it.shader_draw_parameters;
-                }
-                Is::PHYSICAL_DEVICE_SHADER_SUBGROUP_EXTENDED_TYPES_FEATURES => {
-                    let it = read!(PhysicalDeviceShaderSubgroupExtendedTypesFeatures);
-                    on.v1_2.shader_subgroup_extended_types = it.shader_subgroup_extended_types;
-                }
-                Is::PHYSICAL_DEVICE_SHADER_INTEGER_DOT_PRODUCT_FEATURES => {
-                    let it = read!(PhysicalDeviceShaderIntegerDotProductFeatures);
-                    on.v1_3.shader_integer_dot_product = it.shader_integer_dot_product;
-                }
-                Is::PHYSICAL_DEVICE_VULKAN_MEMORY_MODEL_FEATURES => {
-                    let it = read!(PhysicalDeviceVulkanMemoryModelFeatures);
-                    on.v1_2.vulkan_memory_model = it.vulkan_memory_model;
-                    on.v1_2.vulkan_memory_model_device_scope = it.vulkan_memory_model_device_scope;
-                }
-                Is::PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES => {
-                    on.v1_2.timeline_semaphore = read!(PhysicalDeviceTimelineSemaphoreFeatures).timeline_semaphore;
-                }
-                Is::PHYSICAL_DEVICE_HOST_QUERY_RESET_FEATURES => {
-                    on.v1_2.host_query_reset = read!(PhysicalDeviceHostQueryResetFeatures).host_query_reset;
-                }
-                Is::PHYSICAL_DEVICE_SEPARATE_DEPTH_STENCIL_LAYOUTS_FEATURES => {
-                    let it = read!(PhysicalDeviceSeparateDepthStencilLayoutsFeatures);
-                    on.v1_2.separate_depth_stencil_layouts = it.separate_depth_stencil_layouts;
-                }
-                Is::PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES => {
-                    on.v1_3.dynamic_rendering = read!(PhysicalDeviceDynamicRenderingFeatures).dynamic_rendering;
-                }
-                Is::PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES => {
-                    on.v1_3.synchronization2 = read!(PhysicalDeviceSynchronization2Features).synchronization2;
-                }
-                Is::PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES => {
-                    on.v1_3.maintenance4 = read!(PhysicalDeviceMaintenance4Features).maintenance4;
-                }
-                Is::PHYSICAL_DEVICE_SHADER_DEMOTE_TO_HELPER_INVOCATION_FEATURES => {
-                    let it = read!(PhysicalDeviceShaderDemoteToHelperInvocationFeatures);
-                    on.v1_3.shader_demote_to_helper_invocation = it.shader_demote_to_helper_invocation;
-                }
-                Is::PHYSICAL_DEVICE_SHADER_TERMINATE_INVOCATION_FEATURES => {
-                    let it = read!(PhysicalDeviceShaderTerminateInvocationFeatures);
-                    on.v1_3.shader_terminate_invocation = it.shader_terminate_invocation;
-                }
-                Is::PHYSICAL_DEVICE_DYNAMIC_RENDERING_LOCAL_READ_FEATURES_KHR => {
-                    let it = read!(PhysicalDeviceDynamicRenderingLocalReadFeaturesKHR);
-                    on.local_read.dynamic_rendering_local_read = it.dynamic_rendering_local_read;
-                }
-                Is::PHYSICAL_DEVICE_FRAGMENT_SHADER_BARYCENTRIC_FEATURES_KHR => {
-                    let it = read!(PhysicalDeviceFragmentShaderBarycentricFeaturesKHR);
-                    on.barycentric.fragment_shader_barycentric = it.fragment_shader_barycentric;
-                }
-                Is::PHYSICAL_DEVICE_VERTEX_ATTRIBUTE_DIVISOR_FEATURES_KHR => {
-                    let it = read!(PhysicalDeviceVertexAttributeDivisorFeaturesKHR);
-                    on.divisor.vertex_attribute_instance_rate_divisor = it.vertex_attribute_instance_rate_divisor;
-                }
-                _ => {}
-            }
-            next = structure.p_next;
-        }
-        on
-    }
-
     /// Features of the minimum that are switched off, by Vulkan's names.
     pub(crate) fn missing(&self) -> Vec<&'static str> {
         let mut all = self.copy();
@@ -340,6 +214,10 @@ impl Features {
     pub(super) fn only(&self, names: &[&str]) -> Features {
         let (subgroups, khr_divisor) = (self.subgroups, self.khr_divisor);
         let mut features = Features { subgroups, khr_divisor, ..Features::default() };
+        let mut names = names.to_vec();
+        for (name, other) in TOGETHER {
+            names.extend(names.contains(&name).then_some(other));
+        }
         for flag in names.iter().filter_map(|name| flag(name)) {
             *flag(&mut features) = *flag(&mut self.copy());
         }
@@ -350,8 +228,8 @@ impl Features {
 
     /// A copy, chained to nothing.
     pub(crate) fn copy(&self) -> Features {
-        let Features { core, v1_1, v1_2, v1_3, local_read, barycentric, divisor, khr_divisor, subgroups } = *self;
-        Features { core, v1_1, v1_2, v1_3, local_read, barycentric, divisor, khr_divisor, subgroups }
+        let Features { core, v1_1, v1_2, v1_3, of_extensions, khr_divisor, subgroups } = *self;
+        Features { core, v1_1, v1_2, v1_3, of_extensions: of_extensions.unchained(), khr_divisor, subgroups }
     }
 
     /// The device's extensions that the features come with.
@@ -359,7 +237,11 @@ impl Features {
         let mut all = self.copy();
         let on = OF_EXTENSIONS.into_iter().filter(|(_, flag)| *flag(&mut all) == vk::TRUE);
         let named = |name| if name == DIVISOR && self.khr_divisor { khr::vertex_attribute_divisor::NAME } else { name };
-        on.map(|(name, _)| named(name)).collect()
+        let mut names: Vec<&CStr> = on.map(|(name, _)| named(name)).collect();
+        // Those of one extension stand side by side.
+        names.dedup();
+        names.extend(names.contains(&STRUCTURES).then_some(khr::deferred_host_operations::NAME));
+        names
     }
 
     /// Vulkan's names of the features that are switched on, and that pipelines can need.
@@ -373,7 +255,12 @@ impl Features {
 
     /// Whether fragment shaders can read what their rendering scope drew.
     pub(crate) fn local_read(&self) -> bool {
-        self.local_read.dynamic_rendering_local_read == vk::TRUE
+        self.of_extensions.local_read.dynamic_rendering_local_read == vk::TRUE
+    }
+
+    /// Whether buffers can have addresses.
+    pub(crate) fn addresses(&self) -> bool {
+        self.v1_2.buffer_device_address == vk::TRUE
     }
 
     /// Whether rendering scopes can draw several views at once.
@@ -407,27 +294,15 @@ impl Features {
         self.v1_1.p_next = std::ptr::null_mut();
         self.v1_2.p_next = std::ptr::null_mut();
         self.v1_3.p_next = std::ptr::null_mut();
-        self.local_read.p_next = std::ptr::null_mut();
-        self.barycentric.p_next = std::ptr::null_mut();
-        self.divisor.p_next = std::ptr::null_mut();
         let chain = vk::PhysicalDeviceFeatures2::default().features(self.core);
-        let mut chain = chain.push_next(&mut self.v1_1).push_next(&mut self.v1_2).push_next(&mut self.v1_3);
-        if self.local_read.dynamic_rendering_local_read == vk::TRUE {
-            chain = chain.push_next(&mut self.local_read);
-        }
-        if self.barycentric.fragment_shader_barycentric == vk::TRUE {
-            chain = chain.push_next(&mut self.barycentric);
-        }
-        if self.divisor.vertex_attribute_instance_rate_divisor == vk::TRUE {
-            chain = chain.push_next(&mut self.divisor);
-        }
-        chain
+        let chain = chain.push_next(&mut self.v1_1).push_next(&mut self.v1_2).push_next(&mut self.v1_3);
+        self.of_extensions.chain(chain, |is_on, _| is_on)
     }
 }
 
 impl Subgroups {
     /// What `physical` can do.
-    fn of(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Subgroups {
+    pub(super) fn of(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Subgroups {
         let mut subgroups = vk::PhysicalDeviceSubgroupProperties::default();
         let mut all = vk::PhysicalDeviceProperties2::default().push_next(&mut subgroups);
         // SAFETY: `physical` belongs to `instance`, and the chained structure outlives the call.
@@ -438,32 +313,6 @@ impl Subgroups {
             quads_in_all_stages: subgroups.quad_operations_in_all_stages == vk::TRUE,
         }
     }
-}
-
-/// Takes over the features of descriptor indexing.
-fn indexing(to: &mut vk::PhysicalDeviceVulkan12Features<'_>, it: &vk::PhysicalDeviceDescriptorIndexingFeatures<'_>) {
-    to.shader_sampled_image_array_non_uniform_indexing = it.shader_sampled_image_array_non_uniform_indexing;
-    to.shader_storage_image_array_non_uniform_indexing = it.shader_storage_image_array_non_uniform_indexing;
-    to.shader_uniform_texel_buffer_array_dynamic_indexing = it.shader_uniform_texel_buffer_array_dynamic_indexing;
-    to.shader_storage_texel_buffer_array_dynamic_indexing = it.shader_storage_texel_buffer_array_dynamic_indexing;
-    to.shader_uniform_buffer_array_non_uniform_indexing = it.shader_uniform_buffer_array_non_uniform_indexing;
-    to.shader_storage_buffer_array_non_uniform_indexing = it.shader_storage_buffer_array_non_uniform_indexing;
-    to.shader_uniform_texel_buffer_array_non_uniform_indexing =
-        it.shader_uniform_texel_buffer_array_non_uniform_indexing;
-    to.shader_storage_texel_buffer_array_non_uniform_indexing =
-        it.shader_storage_texel_buffer_array_non_uniform_indexing;
-    to.descriptor_binding_uniform_buffer_update_after_bind = it.descriptor_binding_uniform_buffer_update_after_bind;
-    to.descriptor_binding_sampled_image_update_after_bind = it.descriptor_binding_sampled_image_update_after_bind;
-    to.descriptor_binding_storage_image_update_after_bind = it.descriptor_binding_storage_image_update_after_bind;
-    to.descriptor_binding_storage_buffer_update_after_bind = it.descriptor_binding_storage_buffer_update_after_bind;
-    to.descriptor_binding_uniform_texel_buffer_update_after_bind =
-        it.descriptor_binding_uniform_texel_buffer_update_after_bind;
-    to.descriptor_binding_storage_texel_buffer_update_after_bind =
-        it.descriptor_binding_storage_texel_buffer_update_after_bind;
-    to.descriptor_binding_update_unused_while_pending = it.descriptor_binding_update_unused_while_pending;
-    to.descriptor_binding_partially_bound = it.descriptor_binding_partially_bound;
-    to.descriptor_binding_variable_descriptor_count = it.descriptor_binding_variable_descriptor_count;
-    to.runtime_descriptor_array = it.runtime_descriptor_array;
 }
 
 /// Takes away what a device can't do together with `robustBufferAccess`, which is always asked for: some can't check the bounds of buffers

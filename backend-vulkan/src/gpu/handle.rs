@@ -140,7 +140,8 @@ impl Gpu {
         // SAFETY: `physical` belongs to the instance.
         let properties = unsafe { instance.raw.get_physical_device_properties(physical) };
         let made_of_device = || {
-            let allocator = allocator.map_or_else(|| own_allocator(&instance.raw, physical, &raw), Ok)?;
+            let allocator =
+                allocator.map_or_else(|| own_allocator(&instance.raw, physical, &raw, features.addresses()), Ok)?;
             Ok((allocator, PipelineCache::open(&raw, cache, &summary.identity)?))
         };
         let (allocator, pipeline_cache) = made_of_device().inspect_err(|_| {
@@ -241,18 +242,20 @@ impl Gpu {
     }
 }
 
-/// An allocator for the memory of a device.
+/// An allocator for the memory of a device. `addresses`: its buffers can have addresses.
 fn own_allocator(
     instance: &ash::Instance,
     physical: vk::PhysicalDevice,
     device: &ash::Device,
+    addresses: bool,
 ) -> Result<Arc<Mutex<Allocator>>, Error> {
     let allocator = Allocator::new(&AllocatorCreateDesc {
         instance: instance.clone(),
         device: device.clone(),
         physical_device: physical,
         debug_settings: gpu_allocator::AllocatorDebugSettings::default(),
-        buffer_device_address: false,
+        // Memory of buffers that have addresses must say so when it is allocated.
+        buffer_device_address: addresses,
         allocation_sizes: gpu_allocator::AllocationSizes::default(),
     });
     let failed = |error: gpu_allocator::AllocationError| Error::OutOfMemory {

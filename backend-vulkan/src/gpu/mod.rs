@@ -5,6 +5,8 @@ mod cached_objects;
 mod dead_images;
 mod device;
 mod device_features;
+mod enabled_features;
+mod extension_features;
 pub(crate) mod features;
 mod handle;
 mod instance;

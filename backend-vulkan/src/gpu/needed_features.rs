@@ -3,7 +3,7 @@
 use super::features::OptionalFeature;
 
 /// Features that are used where a device has them, and that pipelines can need by their shaders and draws: profiles tell of these.
-pub(super) const NEEDED_FEATURES: [OptionalFeature; 61] = [
+pub(super) const NEEDED_FEATURES: [OptionalFeature; 70] = [
     ("imageCubeArray", "shaders that see several cubes at once", |it| &mut it.core.image_cube_array),
     (
         "shaderSampledImageArrayDynamicIndexing",
@@ -163,11 +163,34 @@ pub(super) const NEEDED_FEATURES: [OptionalFeature; 61] = [
     }),
     ("shaderCullDistance", "triangles that a vertex shader leaves out", |it| &mut it.core.shader_cull_distance),
     ("fragmentShaderBarycentric", "places within a triangle, in fragment shaders", |it| {
-        &mut it.barycentric.fragment_shader_barycentric
+        &mut it.of_extensions.barycentric.fragment_shader_barycentric
     }),
     ("vertexAttributeInstanceRateDivisor", "vertex attributes that several instances share", |it| {
-        &mut it.divisor.vertex_attribute_instance_rate_divisor
+        &mut it.of_extensions.divisor.vertex_attribute_instance_rate_divisor
     }),
+    ("bufferDeviceAddress", "addresses of buffers, which shaders follow", |it| &mut it.v1_2.buffer_device_address),
+    ("rayQuery", "rays that shaders trace", |it| &mut it.of_extensions.ray_query.ray_query),
+    ("accelerationStructure", "acceleration structures, which rays are traced through", |it| {
+        &mut it.of_extensions.structures.acceleration_structure
+    }),
+    (
+        "descriptorBindingAccelerationStructureUpdateAfterBind",
+        "acceleration structures that are written after their set was bound",
+        |it| &mut it.of_extensions.structures.descriptor_binding_acceleration_structure_update_after_bind,
+    ),
+    ("rayTracingPipeline", "ray-tracing pipelines of custom passes", |it| {
+        &mut it.of_extensions.ray_tracing.ray_tracing_pipeline
+    }),
+    (
+        "rayTracingMaintenance1",
+        "copies of acceleration structures, and shader binding tables, in custom passes",
+        |it| &mut it.of_extensions.tracing_maintenance.ray_tracing_maintenance1,
+    ),
+    ("attachmentFragmentShadingRate", "images of shading rates, in custom passes", |it| {
+        &mut it.of_extensions.shading_rates.attachment_fragment_shading_rate
+    }),
+    ("taskShader", "task shaders of custom passes", |it| &mut it.of_extensions.mesh.task_shader),
+    ("meshShader", "mesh shaders of custom passes", |it| &mut it.of_extensions.mesh.mesh_shader),
     ("geometryShader", "numbers of primitives in fragment shaders", |it| &mut it.core.geometry_shader),
     ("shaderSubgroupExtendedTypes", "operations of subgroups on numbers that don't have 32 bits", |it| {
         &mut it.v1_2.shader_subgroup_extended_types

@@ -120,6 +120,7 @@ fn descriptor_type(kind: DescriptorType) -> vk::DescriptorType {
         DescriptorType::StorageBuffer => Is::STORAGE_BUFFER,
         DescriptorType::UniformBufferDynamic => Is::UNIFORM_BUFFER_DYNAMIC,
         DescriptorType::StorageBufferDynamic => Is::STORAGE_BUFFER_DYNAMIC,
+        DescriptorType::AccelerationStructure => Is::ACCELERATION_STRUCTURE_KHR,
     }
 }
 

@@ -216,6 +216,10 @@ fn kind(
             BindingKind::StorageBlock { readable, writable, bytes }
         }
         (Op::TypeStruct, Some(StorageClass::Uniform)) => BindingKind::UniformBlock(block(module, ty)),
+        (Op::TypeAccelerationStructureKHR, _) => other(
+            "an acceleration structure",
+            "only sets that the program binds itself hold such (`sets` of its interface)",
+        ),
         (opcode, _) => other(&format!("an {} of SPIR-V", named(opcode)), "declare an image or a block"),
     }
 }

@@ -1,6 +1,7 @@
 //! By which of Vulkan's rules the members of blocks lie: no capability tells it, their offsets and strides do. See "Offset and Stride
 //! Assignment" in Vulkan's specification.
 
+use super::addresses;
 use super::module::{IndexedModule, id, number, storage_class};
 use super::needs::Feature;
 use super::text::Words;
@@ -36,34 +37,41 @@ const DEEPEST: usize = 64;
 
 /// The features that a device must have for the layouts of blocks.
 pub(super) fn features(module: &IndexedModule<'_>) -> Vec<Feature> {
-    let mut layouts = None;
     let mut found = Vec::new();
-    for (variable, it) in module.variables() {
-        let class = storage_class(it);
-        let in_block = [StorageClass::Uniform, StorageClass::StorageBuffer, StorageClass::PushConstant].map(Some);
-        if !in_block.contains(&class) {
-            continue;
-        }
-        let Some(mut ty) = module.pointee(it) else { continue };
-        // An array of blocks.
-        if matches!(ty.class.opcode, Op::TypeArray | Op::TypeRuntimeArray) {
-            let Some(element) = id(ty, 0).and_then(|element| module.global(element)) else { continue };
-            ty = element;
-        }
-        let Some(block) = ty.result_id.filter(|_| ty.class.opcode == Op::TypeStruct) else { continue };
-        let of_uniform = class == Some(StorageClass::Uniform) && !module.is_storage_block(it, ty);
-        let usual = if of_uniform { Rules::Extended } else { Rules::Base };
-        let layouts = layouts.get_or_insert_with(|| Layouts::of(module));
+    let blocks: Vec<_> = blocks(module).collect();
+    let layouts = if blocks.is_empty() { None } else { Some(Layouts::of(module)) };
+    for ((block, usual, own), layouts) in blocks.into_iter().zip(layouts.iter().cycle()) {
         let name = match usual {
             _ if layouts.follows(block, usual) => continue,
             Rules::Extended if layouts.follows(block, Rules::Base) => "uniformBufferStandardLayout",
             _ => "scalarBlockLayout",
         };
-        let own = module.name(variable);
         let words = Words::Whole(if own.is_empty() { module.name(block) } else { own }.to_owned());
         found.push(Feature { name, words });
     }
     found
+}
+
+/// The structs that lie in buffers, each with the rules that every device has for it, and a name of its own if it has one.
+fn blocks<'m>(module: &'m IndexedModule<'m>) -> impl Iterator<Item = (u32, Rules, &'m str)> {
+    let of_variables = module.variables().filter_map(|(variable, it)| {
+        let class = storage_class(it);
+        let in_block = [StorageClass::Uniform, StorageClass::StorageBuffer, StorageClass::PushConstant].map(Some);
+        if !in_block.contains(&class) {
+            return None;
+        }
+        let mut ty = module.pointee(it)?;
+        // An array of blocks.
+        if matches!(ty.class.opcode, Op::TypeArray | Op::TypeRuntimeArray) {
+            ty = module.global(id(ty, 0)?)?;
+        }
+        let block = ty.result_id.filter(|_| ty.class.opcode == Op::TypeStruct)?;
+        let of_uniform = class == Some(StorageClass::Uniform) && !module.is_storage_block(it, ty);
+        let usual = if of_uniform { Rules::Extended } else { Rules::Base };
+        Some((block, usual, module.name(variable)))
+    });
+    let followed = addresses::followed_types(module).filter(|ty| ty.class.opcode == Op::TypeStruct);
+    of_variables.chain(followed.filter_map(|ty| Some((ty.result_id?, Rules::Base, ""))))
 }
 
 /// Where vectors may not lie across a boundary.

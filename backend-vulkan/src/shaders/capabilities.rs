@@ -1,9 +1,9 @@
 //! The capabilities of SPIR-V that stages may need, and what GLSL to write instead of what needs others.
 
-use super::indexing;
 use super::module::IndexedModule;
 use super::needs::Feature;
 use super::text::{RefusedStage, Words};
+use super::{addresses, indexing};
 use crate::base::ShaderStage;
 use crate::base::named;
 use rspirv::spirv::Capability;
@@ -35,7 +35,7 @@ const WITHOUT_FORMAT: &[&str] = &["image1D", "image2D", "image3D", "imageCube", 
 const DOT_PRODUCTS: (&str, &[&str]) = ("shaderIntegerDotProduct", &["dotEXT", "dotPacked", "dotAccSat"]);
 
 /// Capabilities that every stage may need on devices that have the feature of this name, and how words of GLSL begin that need them.
-const OF_DEVICES: [(Capability, &str, &[&str]); 49] = [
+const OF_DEVICES: [(Capability, &str, &[&str]); 52] = [
     // Of the minimum: a device that the program made itself may lack them.
     (Capability::SampleRateShading, "sampleRateShading", &["gl_SampleID", "gl_SamplePosition", "sample"]),
     (Capability::InterpolationFunction, "sampleRateShading", &["interpolateAt"]),
@@ -109,6 +109,11 @@ const OF_DEVICES: [(Capability, &str, &[&str]); 49] = [
         "vulkanMemoryModelDeviceScope",
         &["gl_ScopeDevice", "atomic", "coherent"],
     ),
+    // Rays and addresses.
+    (Capability::RayQueryKHR, "rayQuery", RAYS),
+    // Vulkan lets the same feature bring it.
+    (Capability::RayTraversalPrimitiveCullingKHR, "rayQuery", RAYS),
+    (Capability::PhysicalStorageBufferAddresses, "bufferDeviceAddress", addresses::WORDS),
     // Subgroups.
     (Capability::GroupNonUniformVote, "subgroupSupportedOperations.VOTE", &["subgroupA"]),
     (Capability::GroupNonUniformArithmetic, "subgroupSupportedOperations.ARITHMETIC", SUBGROUPS),
@@ -123,6 +128,7 @@ const OF_DEVICES: [(Capability, &str, &[&str]); 49] = [
     (Capability::GroupNonUniformQuad, "subgroupSupportedOperations.QUAD", &["subgroupQuad"]),
 ];
 
+const RAYS: &[&str] = &["rayQuery", "RayQuery"];
 const SUBGROUPS: &[&str] = &["subgroup", "gl_Subgroup", "GL_KHR_shader_subgroup"];
 
 /// More capabilities, of shaders that draw for both eyes at once.
@@ -148,16 +154,7 @@ const UNSUPPORTED: &[UnsupportedFeature] = &[
         &["image2DMS", "uimage2DMS", "iimage2DMS"],
         "storage images with several samples: sample them by a `sampler2DMS`",
     ),
-    (
-        &[Capability::PhysicalStorageBufferAddresses],
-        &["buffer_reference"],
-        "addresses of buffers, which aren't bounded: put the buffers into a set of the program's, and take them by number",
-    ),
-    (
-        &[Capability::RayQueryKHR],
-        &["rayQueryEXT"],
-        "ray queries: let a `custom` pass trace, with a pipeline of the program's own",
-    ),
+    (&[Capability::PhysicalStorageBufferAddresses], addresses::WORDS, addresses::UNSAID),
     (
         &[Capability::FragmentShadingRateKHR],
         &["gl_ShadingRateEXT", "gl_PrimitiveShadingRateEXT"],
@@ -166,6 +163,7 @@ const UNSUPPORTED: &[UnsupportedFeature] = &[
 ];
 
 /// Refuses what isn't supported, with the words that need it and what to write instead. Returns the features that a device must have.
+/// `handed_out`: the program hands addresses out.
 ///
 /// # Errors
 /// The first capability that a stage needs and may not.
@@ -173,13 +171,15 @@ pub(super) fn check_capabilities(
     module: &IndexedModule<'_>,
     stage: ShaderStage,
     both_eyes: bool,
+    handed_out: bool,
 ) -> Result<Vec<Feature>, RefusedStage> {
     let allowed = |it: Capability| EVERYWHERE.contains(&it) || both_eyes && FOR_BOTH_EYES.contains(&it);
+    let unsaid = |it: Capability| it == Capability::PhysicalStorageBufferAddresses && !handed_out;
     let mut features = Vec::new();
     for capability in module.capabilities().filter(|it| !allowed(*it)) {
         match of_devices(capability, stage) {
-            Some(needed) => features.extend(needed),
-            None => return Err(refused(capability)),
+            Some(needed) if !unsaid(capability) => features.extend(needed),
+            _ => return Err(refused(capability)),
         }
     }
     Ok(features)

@@ -5,8 +5,8 @@ use super::text::{RefusedStage, Words};
 use rspirv::dr::Operand;
 
 /// From the appendix "Vulkan Environment for SPIR-V" of Vulkan's specification. What an extension brings takes a capability, or is
-/// harmless. The last needs an extension of Vulkan's, whose feature the capability asks for.
-const ALLOWED: [&str; 19] = [
+/// harmless. The last two need extensions of Vulkan's, whose features the capabilities ask for.
+const ALLOWED: [&str; 20] = [
     "SPV_KHR_16bit_storage",
     "SPV_KHR_8bit_storage",
     "SPV_KHR_device_group",
@@ -26,6 +26,7 @@ const ALLOWED: [&str; 19] = [
     "SPV_EXT_descriptor_indexing",
     "SPV_EXT_shader_viewport_index_layer",
     "SPV_KHR_fragment_shader_barycentric",
+    "SPV_KHR_ray_query",
 ];
 
 /// Refuses other extensions, with the word of the text that asks for it.

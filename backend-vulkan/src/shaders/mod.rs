@@ -1,6 +1,7 @@
 //! Shaders by name: GLSL from folders or shipped with the program, compiled to SPIR-V, files in HLSL, Slang and WGSL, compiled by the
 //! same compiler or by commands, and SPIR-V of other compilers; all are reflected. Needs no device.
 
+mod addresses;
 mod bindings;
 mod block_layout;
 mod by_command;

@@ -19,6 +19,9 @@ pub(super) struct IndexedModule<'m> {
     member_decorations: HashMap<(u32, u32, Decoration), Option<&'m Operand>>,
 }
 
+/// Bytes that a ray query is taken for: drivers keep the way that a ray has taken through an acceleration structure. None tells how much.
+const RAY_QUERY_BYTES: u64 = 512;
+
 /// Sizes of a type.
 #[derive(Debug, Clone, Copy, Default)]
 struct Sizes {
@@ -108,6 +111,8 @@ impl<'m> IndexedModule<'m> {
         match it.class.opcode {
             Op::TypeInt | Op::TypeFloat => u64::from(bits(it) / 8),
             Op::TypeBool => 4,
+            Op::TypePointer | Op::TypeAccelerationStructureKHR => 8,
+            Op::TypeRayQueryKHR => RAY_QUERY_BYTES,
             Op::TypeVector | Op::TypeMatrix => {
                 element().saturating_mul(it.operands.get(1).and_then(number).unwrap_or(0).into())
             }
@@ -183,6 +188,7 @@ impl<'m> IndexedModule<'m> {
             }
             Op::TypeRuntimeArray => 0,
             Op::TypeStruct => self.block_end(ty),
+            Op::TypePointer => 8,
             _ => scalar_bytes(it),
         }
     }

@@ -2,7 +2,7 @@
 
 use super::module::{IndexedModule, storage_class};
 use super::text::Words;
-use super::{block_layout, indexing};
+use super::{addresses, block_layout, indexing};
 use crate::base::ShaderStage;
 use framewright_graph::device::{Limit, NeedKind};
 use framewright_graph::shader::{Binding, ProgramResource};
@@ -39,7 +39,7 @@ pub(super) fn needs(
     features.extend(wide_and_narrow(module));
     features.extend(ends_invocations(module));
     if stage.facts().writes_attachments {
-        features.extend(stores(bindings, program));
+        features.extend(stores(module, bindings, program));
     }
     features.sort_by_key(|feature| feature.name);
     // Where two ways to tell of a feature agree, the one that knows the words stays.
@@ -129,9 +129,11 @@ fn ends_invocations(module: &IndexedModule<'_>) -> Option<Feature> {
     })
 }
 
-/// Images and blocks that a fragment stage may store into.
-fn stores(bindings: &[Binding], program: &[ProgramResource]) -> Option<Feature> {
+/// Images, blocks and addresses that a fragment stage may store into.
+fn stores(module: &IndexedModule<'_>, bindings: &[Binding], program: &[ProgramResource]) -> Option<Feature> {
     let own = bindings.iter().find(|it| it.kind.is_written()).map(|it| &it.name);
-    let name = own.or_else(|| program.iter().find(|it| it.writable).map(|it| &it.name))?;
-    Some(Feature { name: "fragmentStoresAndAtomics", words: Words::Whole(name.clone()) })
+    let name = own.or_else(|| program.iter().find(|it| it.writable).map(|it| &it.name));
+    let behind = || addresses::stores(module).then_some(Words::Beginning(addresses::WORDS));
+    let words = name.map(|name| Words::Whole(name.clone())).or_else(behind)?;
+    Some(Feature { name: "fragmentStoresAndAtomics", words })
 }

@@ -77,6 +77,7 @@ fn kind(module: &IndexedModule<'_>, variable: &Instruction, ty: &Instruction) ->
             (_, true) => Some(Is::StorageImage),
             (_, false) => Some(Is::SampledImage),
         },
+        Op::TypeAccelerationStructureKHR => Some(Is::AccelerationStructure),
         Op::TypeStruct if module.is_storage_block(variable, ty) => Some(Is::StorageBuffer),
         Op::TypeStruct if storage_class(variable) == Some(StorageClass::Uniform) => Some(Is::UniformBuffer),
         _ => None,

@@ -9,10 +9,16 @@ pub(super) struct ProgramSupply {
     pub(super) sets: Vec<u32>,
     /// Whether draws of the program bring push constants.
     pub(super) pushes: bool,
+    /// Whether it hands out addresses, which shaders may follow.
+    pub(super) addresses: bool,
 }
 
 impl ProgramSupply {
     pub(super) fn of(draws: &DrawInterfaces) -> ProgramSupply {
-        ProgramSupply { sets: draws.sets().iter().map(|set| set.set).collect(), pushes: draws.push_constants() }
+        ProgramSupply {
+            sets: draws.sets().iter().map(|set| set.set).collect(),
+            pushes: draws.push_constants(),
+            addresses: draws.addresses(),
+        }
     }
 }

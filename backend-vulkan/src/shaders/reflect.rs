@@ -12,7 +12,7 @@ use super::program_supply::ProgramSupply;
 use super::rotation;
 use super::text::RefusedStage;
 use super::varyings::{Varying, varyings, vertex_inputs, writes_point_size};
-use super::{coverage, distances};
+use super::{addresses, coverage, distances};
 use crate::base::{ShaderStage, StageFacts};
 use framewright_graph::shader::{FragmentOutput, PARAMS, PASS_SET, ShaderInterface};
 use rspirv::dr::Operand;
@@ -62,7 +62,8 @@ pub(super) fn reflect(
     let used: HashSet<u32> =
         module.code().flat_map(|it| &it.operands).filter_map(rspirv::dr::Operand::id_ref_any).collect();
     let StageFacts { writes_attachments: fragment, places_vertices: vertex, .. } = stage.facts();
-    let features = check_capabilities(&module, stage, both_eyes)?;
+    let features = check_capabilities(&module, stage, both_eyes, program.addresses)?;
+    addresses::check(&module, program.addresses)?;
     distances::check(&module)?;
     check_own_memory(&module)?;
     check_extensions(&module)?;
@@ -73,6 +74,7 @@ pub(super) fn reflect(
     check_locations(&module, StorageClass::Input, most_in)?;
     check_locations(&module, StorageClass::Output, most_out)?;
     let bindings = bindings(&module, stage, &used, in_part, program)?;
+    check_references(&module, stage)?;
     let program = program_resources(&module, stage, &used, &program.sets)?;
     let workgroup_size = stage.facts().has_workgroups.then(|| workgroup_size(&module));
     if workgroup_size.is_some_and(|size| size.contains(&0)) {
@@ -125,6 +127,16 @@ pub(super) fn reflect(
         })
         .collect();
     Ok(StageInterface { interface, needs, inputs, outputs, input_attachments })
+}
+
+/// Refuses a stage that stores behind an address where not every device can store.
+fn check_references(module: &IndexedModule<'_>, stage: ShaderStage) -> Result<(), RefusedStage> {
+    let StageFacts { may_store, name, .. } = stage.facts();
+    if may_store || !addresses::stores(module) {
+        return Ok(());
+    }
+    let what = format!("a {name} shader stores behind an address: not every device can; store in a compute pass");
+    Err(RefusedStage::beginning(addresses::WORDS, what))
 }
 
 /// The pass's blocks with matrices, the parameters left out; none if the stage knows which view the device draws.

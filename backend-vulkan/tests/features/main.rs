@@ -6,12 +6,15 @@ mod frames;
 #[path = "../testing/mod.rs"]
 mod testing;
 
+mod acceleration_structures;
+mod addressed;
 mod adopted;
 mod allocations;
 mod bindless;
 mod blending;
 mod both_eyes;
 mod breadcrumbs;
+mod buffer_references;
 mod cadence;
 mod clear_values;
 mod compute;
@@ -36,6 +39,7 @@ mod own_pipelines;
 mod presenting;
 mod program_sets;
 mod queues;
+mod ray_queries;
 mod resolves;
 mod seen_vertices;
 mod state;

@@ -47,6 +47,7 @@ mod plan_files;
 mod plans;
 mod precompiled;
 mod profiles;
+mod rays_and_addresses;
 mod readme;
 mod reference;
 mod release;

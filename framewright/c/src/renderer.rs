@@ -75,6 +75,8 @@ pub struct FramewrightRendererOptions {
     /// Commands that compile shaders in HLSL, Slang and WGSL, each with its language: `hlsl=dxc`, `slang=slangc -O0`. Later ones are
     /// stronger. docs/hlsl.md has more.
     pub shader_compilers: FramewrightNames,
+    /// The program hands addresses of buffers out in its sets, and vouches for the shaders that follow them. 0 is false.
+    pub addresses: u32,
 }
 
 // SAFETY: it begins with its size, and has integers and pointers alone.
@@ -89,6 +91,7 @@ unsafe impl Structure for FramewrightRendererOptions {
         sets: std::ptr::null(),
         set_count: 0,
         shader_compilers: FramewrightNames::NONE,
+        addresses: 0,
     };
 }
 
@@ -228,6 +231,7 @@ pub unsafe extern "C" fn framewright_renderer_open(
             options.shaders = folders.into_iter().map(|folder| Root::new(folder.into())).collect();
             options.settings = given.settings.texts("settings")?.into_iter().map(Into::into).collect();
             (options.draws, options.set_layouts) = program_sets(given.sets, given.set_count, options.draws)?;
+            options.draws = if given.addresses == 0 { options.draws } else { options.draws.with_addresses() };
             options.files.extensions = given.extensions.texts("extensions")?.into_iter().map(Into::into).collect();
             for compiler in given.shader_compilers.texts("shader_compilers")? {
                 let named = options.shader_compilers.set_named(compiler);

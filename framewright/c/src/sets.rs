@@ -12,7 +12,7 @@ use framewright::{BindingFlags, DescriptorType, DrawInterfaces, ProgramBinding, 
 pub struct FramewrightSet {
     /// Its number, 1 to 3. The draws of a scene have set 1 and set 2.
     pub set: u32,
-    /// Its bindings: types of buffers, texel buffers, images and samplers, for vertex, fragment and compute shaders. Other stages take a
+    /// Its bindings: types of buffers, texel buffers, images, samplers and acceleration structures, for vertex, fragment and compute shaders. Other stages take a
     /// `layout`.
     pub bindings: *const vk::DescriptorSetLayoutBinding<'static>,
     /// The flags of each binding; NULL: none has any.
@@ -84,7 +84,7 @@ fn binding(
 ) -> Result<ProgramBinding, Problem> {
     use DescriptorType as Is;
     use vk::DescriptorBindingFlags as Flags;
-    const KINDS: [(vk::DescriptorType, DescriptorType); 10] = [
+    const KINDS: [(vk::DescriptorType, DescriptorType); 11] = [
         (vk::DescriptorType::SAMPLER, Is::Sampler),
         (vk::DescriptorType::COMBINED_IMAGE_SAMPLER, Is::CombinedImageSampler),
         (vk::DescriptorType::SAMPLED_IMAGE, Is::SampledImage),
@@ -95,6 +95,7 @@ fn binding(
         (vk::DescriptorType::STORAGE_BUFFER, Is::StorageBuffer),
         (vk::DescriptorType::UNIFORM_BUFFER_DYNAMIC, Is::UniformBufferDynamic),
         (vk::DescriptorType::STORAGE_BUFFER_DYNAMIC, Is::StorageBufferDynamic),
+        (vk::DescriptorType::ACCELERATION_STRUCTURE_KHR, Is::AccelerationStructure),
     ];
     let misuse = |what: &str| Problem::Misuse(format!("binding {} of set {set} has {what}", it.binding));
     let kind = KINDS.iter().find(|(ty, _)| *ty == it.descriptor_type).map(|(_, kind)| *kind);

@@ -4,13 +4,16 @@ use super::{Image, Pass, Plan, RenderScope, Resource};
 use crate::device::{DYNAMIC_RENDERING, EVERY_PLAN_USES, INDEPENDENT_BLEND, Need, NeedKind, SEPARATE_LAYOUTS};
 use crate::frame::{EyeForm, Stereo};
 use crate::shader::{ShaderInterfaces, ShaderProblem, needs_in_pass};
-use crate::vulkan::{Accesses, Aspects, Layout, Stages, State, name_of};
+use crate::vulkan::{Accesses, Aspects, BufferUsage, Layout, Stages, State, name_of};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Vulkan's name of the feature for colours that a scope reads of itself.
 const LOCAL_READ: &str = "dynamicRenderingLocalRead";
+
+/// Vulkan's name of the feature for buffers that have addresses.
+const ADDRESSES: &str = "bufferDeviceAddress";
 
 /// A feature of a device that a Plan uses.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -92,6 +95,9 @@ impl Plan {
         for buffer in &self.buffers {
             let states = buffer.role.states().into_iter().flatten();
             states.for_each(|it| state(&mut found, *it, || format!("the state of `{}`", buffer.name)));
+            if buffer.usage.contains(BufferUsage::SHADER_DEVICE_ADDRESS) {
+                found.add(ADDRESSES, || format!("`{}` has an address", buffer.name));
+            }
         }
         for (number, step) in self.steps.iter().enumerate() {
             let by = || format!("a barrier of step {number}");

@@ -17,6 +17,7 @@ pub struct DrawInterfaces {
     custom: Option<Vec<Arc<str>>>,
     /// In the order of their numbers.
     sets: Vec<ProgramSet>,
+    addresses: bool,
 }
 
 impl DrawInterfaces {
@@ -74,6 +75,15 @@ impl DrawInterfaces {
         self
     }
 
+    /// With addresses of buffers, which the program puts into its sets, its push constants and its buffers, and which shaders may follow
+    /// (`GL_EXT_buffer_reference`). Nothing bounds what is behind an address, `robustBufferAccess` neither: the program vouches for the
+    /// shaders of all pipelines that it draws.
+    #[must_use]
+    pub const fn with_addresses(mut self) -> DrawInterfaces {
+        self.addresses = true;
+        self
+    }
+
     /// The interface of a draw. Of a custom draw it is that of
     /// [`DrawKind::Custom`]: see [`DrawInterfaces::of_pass`].
     #[must_use]
@@ -118,6 +128,12 @@ impl DrawInterfaces {
     #[must_use]
     pub fn sets(&self) -> &[ProgramSet] {
         &self.sets
+    }
+
+    /// Whether shaders may follow addresses of the program's.
+    #[must_use]
+    pub const fn addresses(&self) -> bool {
+        self.addresses
     }
 
     /// The names of custom passes that the program records; `None` if they aren't known, and any may be right.

@@ -28,6 +28,7 @@ fields! {
         version: Leaf<'t>,
         draws: Leaf<'t>,
         sets: Option<Leaf<'t>>,
+        addresses: Option<Leaf<'t>>,
         custom: Option<Leaf<'t>>,
     }
 }
@@ -100,6 +101,9 @@ pub(super) fn write(interfaces: &DrawInterfaces) -> String {
     }
     text += "    ],\n";
     interface_sets::write(interfaces.sets(), &mut text);
+    if interfaces.addresses() {
+        text += "    addresses: true,\n";
+    }
     if let Some(custom) = interfaces.custom_passes() {
         let _ = writeln!(text, "    custom: {custom:?},");
     }
@@ -208,6 +212,9 @@ fn whole(reader: &mut Reader, all: Leaf<'_>) -> Option<DrawInterfaces> {
     }
     if let Some(sets) = fields.sets {
         interfaces = interface_sets::read(reader, sets, interfaces)?;
+    }
+    if fields.addresses.and_then(|leaf| reader.truth(leaf)).unwrap_or(false) {
+        interfaces = interfaces.with_addresses();
     }
     let Some(custom) = fields.custom else { return Some(interfaces) };
     let mut names = Names::new("custom pass", Code::CUSTOM_UNKNOWN);

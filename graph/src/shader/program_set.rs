@@ -104,6 +104,8 @@ descriptor_types! {
     UniformBufferDynamic, "a uniform block with a dynamic offset", None;
     /// A storage block, whose offset is told when the set is bound.
     StorageBufferDynamic, "a storage block with a dynamic offset", None;
+    /// An acceleration structure that rays are traced through.
+    AccelerationStructure, "an acceleration structure", Some("descriptorBindingAccelerationStructureUpdateAfterBind");
 }
 
 const SAMPLED_UPDATED: &str = "descriptorBindingSampledImageUpdateAfterBind";
@@ -206,13 +208,15 @@ impl ProgramBinding {
         self
     }
 
-    /// The features that its flags need, with what needs them.
+    /// The features that its type and its flags need, with what needs them.
     fn features(&self) -> impl Iterator<Item = (&'static str, &'static str)> {
         let BindingFlags { partially_bound, update_after_bind, update_unused_while_pending, variable_count } =
             self.flags;
         let updated = self.kind.updated_after_bind().filter(|_| update_after_bind);
         let flag = |set: bool, name, what| set.then_some((name, what));
+        let traced = self.kind == DescriptorType::AccelerationStructure;
         [
+            flag(traced, "accelerationStructure", "an acceleration structure in the program's set"),
             updated.map(|name| (name, "a binding of the program's set that is updated after it was bound")),
             flag(
                 partially_bound,
@@ -273,6 +277,8 @@ impl DescriptorType {
             Is::StorageImage | Is::StorageTexelBuffer => &[Limit::StageStorageImages, Limit::SetStorageImages],
             Is::UniformBuffer | Is::UniformBufferDynamic => &[Limit::StageUniformBlocks, Limit::SetUniformBlocks],
             Is::StorageBuffer | Is::StorageBufferDynamic => &[Limit::StageStorageBlocks, Limit::SetStorageBlocks],
+            // As many as every device allows that has them: see `set_faults`.
+            Is::AccelerationStructure => &[],
         }
     }
 }

@@ -10,6 +10,8 @@ const SETS: u32 = 4;
 const MOST_UPDATED: u64 = 500_000;
 /// The same of uniform buffers.
 const MOST_UPDATED_UNIFORM: u64 = 12;
+/// Acceleration structures that every device allows that has them, `maxPerStageDescriptorAccelerationStructures`.
+const MOST_STRUCTURES: u64 = 16;
 
 /// A part of a program's sets that no device need be able to bind.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -74,9 +76,11 @@ impl DrawInterfaces {
         };
         let updated = |it: &ProgramBinding| it.flags.update_after_bind;
         let uniform = |it: &ProgramBinding| it.kind == Is::UniformBuffer;
-        let rules: [(&str, Counts<'_>, u64); 4] = [
+        let structure = |it: &ProgramBinding| it.kind == Is::AccelerationStructure;
+        let rules: [(&str, Counts<'_>, u64); 5] = [
             ("uniform blocks with dynamic offsets", &|it| it.kind == Is::UniformBufferDynamic, 8),
             ("storage blocks with dynamic offsets", &|it| it.kind == Is::StorageBufferDynamic, 4),
+            ("acceleration structures", &|it| !updated(it) && structure(it), MOST_STRUCTURES),
             (
                 "uniform blocks that are updated after they were bound",
                 &|it| updated(it) && uniform(it),

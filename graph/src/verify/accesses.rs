@@ -280,6 +280,7 @@ fn replaces(images: &[plan::Image], scope: &RenderScope, pass: &Pass, access: &p
 
 pub(super) fn buffer_usage(accesses: Accesses) -> BufferUsage {
     let storage = Accesses::SHADER_STORAGE_READ | Accesses::SHADER_STORAGE_WRITE;
+    let addressed = BufferUsage::SHADER_DEVICE_ADDRESS;
     [
         (Accesses::UNIFORM_READ, BufferUsage::UNIFORM_BUFFER),
         (storage, BufferUsage::STORAGE_BUFFER),
@@ -290,9 +291,11 @@ pub(super) fn buffer_usage(accesses: Accesses) -> BufferUsage {
         (Accesses::TRANSFER_WRITE, BufferUsage::TRANSFER_DST),
         (
             Accesses::ACCELERATION_STRUCTURE_READ_KHR | Accesses::ACCELERATION_STRUCTURE_WRITE_KHR,
-            BufferUsage::ACCELERATION_STRUCTURE_STORAGE_KHR,
+            // The memory that a build works in is a storage buffer.
+            BufferUsage::ACCELERATION_STRUCTURE_STORAGE_KHR | BufferUsage::STORAGE_BUFFER | addressed,
         ),
-        (Accesses::SHADER_BINDING_TABLE_READ_KHR, BufferUsage::SHADER_BINDING_TABLE_KHR),
+        (Accesses::SHADER_READ, BufferUsage::ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_KHR | addressed),
+        (Accesses::SHADER_BINDING_TABLE_READ_KHR, BufferUsage::SHADER_BINDING_TABLE_KHR | addressed),
         // Whatever a program records with it.
         (Accesses::MEMORY_READ, BufferUsage::CORE.difference(BufferUsage::TRANSFER_DST)),
         (Accesses::MEMORY_WRITE, BufferUsage::STORAGE_BUFFER.union(BufferUsage::TRANSFER_DST)),

@@ -22,6 +22,7 @@ const OF_BUFFERS: Accesses = Accesses::UNIFORM_READ
     .union(Accesses::VERTEX_ATTRIBUTE_READ)
     .union(Accesses::INDEX_READ)
     .union(Accesses::INDIRECT_COMMAND_READ)
+    .union(Accesses::SHADER_READ)
     .union(Accesses::ACCELERATION_STRUCTURE_READ_KHR)
     .union(Accesses::ACCELERATION_STRUCTURE_WRITE_KHR)
     .union(Accesses::SHADER_BINDING_TABLE_READ_KHR);
@@ -35,7 +36,6 @@ const DRAWN: Stages = Stages::DRAW_INDIRECT
     .union(Stages::VERTEX_SHADER)
     .union(Stages::TASK_SHADER_EXT)
     .union(Stages::MESH_SHADER_EXT)
-    .union(Stages::FRAGMENT_SHADING_RATE_ATTACHMENT_KHR)
     .union(Stages::FRAGMENT_SHADER)
     .union(Stages::ALL_COMMANDS);
 
@@ -49,7 +49,8 @@ impl Check<'_, '_> {
         }
         self.demand(!accesses.intersects(OF_BUFFERS), id, "is declared to be used as only buffers are");
         let draws = by == CommandSource::Program { draws: true };
-        self.demand(!draws || !accesses.intersects(ATTACHMENT), id, "is declared to be an attachment in a scope");
+        let attached = ATTACHMENT | Accesses::FRAGMENT_SHADING_RATE_ATTACHMENT_READ_KHR;
+        self.demand(!draws || !accesses.intersects(attached), id, "is declared to be an attachment in a scope");
         let color = Accesses::COLOR_ATTACHMENT_READ | Accesses::COLOR_ATTACHMENT_WRITE;
         let depth = Accesses::DEPTH_STENCIL_ATTACHMENT_READ | Accesses::DEPTH_STENCIL_ATTACHMENT_WRITE;
         let fits = match layout {

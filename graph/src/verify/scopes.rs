@@ -10,7 +10,7 @@ pub(super) const STAGES: usize = 19;
 /// Number of pairs that write; they come first.
 pub(super) const WRITE_PAIRS: usize = 18;
 /// Number of pairs.
-pub(super) const PAIRS: usize = 60;
+pub(super) const PAIRS: usize = 61;
 
 /// A set of stages.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -109,6 +109,7 @@ const PAIR: [(usize, Accesses); PAIRS] = [
     (BUILD, Accesses::ACCELERATION_STRUCTURE_READ_KHR),
     (STRUCTURE_COPY, Accesses::ACCELERATION_STRUCTURE_READ_KHR),
     (RAY_TRACING, Accesses::SHADER_BINDING_TABLE_READ_KHR),
+    (BUILD, Accesses::SHADER_READ),
     (BUILD, Accesses::TRANSFER_READ),
     (STRUCTURE_COPY, Accesses::TRANSFER_READ),
     (SHADING_RATE, Accesses::FRAGMENT_SHADING_RATE_ATTACHMENT_READ_KHR),

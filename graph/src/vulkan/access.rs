@@ -37,6 +37,8 @@ pub enum AccessKind {
     TransferTarget,
     /// Acceleration structure: traced, built, copied.
     AccelerationStructure,
+    /// Vertices, instances and the like that an acceleration structure is built from.
+    BuildInput,
     /// Shader binding table.
     ShaderBindingTable,
     /// Presented in a window.
@@ -90,6 +92,13 @@ const SHADERS: Stages = Stages::SHADERS;
 const TESTS: Stages = Stages::EARLY_FRAGMENT_TESTS.union(Stages::LATE_FRAGMENT_TESTS);
 const SOURCES: Stages = Stages::COPY.union(Stages::BLIT).union(Stages::RESOLVE);
 const STRUCTURES: Stages = Stages::ACCELERATION_STRUCTURE_BUILD_KHR.union(Stages::ACCELERATION_STRUCTURE_COPY_KHR);
+
+/// A buffer that holds an acceleration structure, or is the scratch memory of a build. Commands know both by their addresses.
+const STRUCTURE: BufferUsage = BufferUsage::ACCELERATION_STRUCTURE_STORAGE_KHR
+    .union(BufferUsage::STORAGE_BUFFER)
+    .union(BufferUsage::SHADER_DEVICE_ADDRESS);
+const BUILD_INPUT: BufferUsage =
+    BufferUsage::ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_KHR.union(BufferUsage::SHADER_DEVICE_ADDRESS);
 
 /// Nothing, from which rows are made.
 const NONE: AccessRow = AccessRow {
@@ -223,7 +232,15 @@ const ROWS: &[AccessRow] = &[
         read_only: SHADERS,
         reads: Accesses::ACCELERATION_STRUCTURE_READ_KHR,
         writes: Accesses::ACCELERATION_STRUCTURE_WRITE_KHR,
-        buffer: Some(BufferUsage::ACCELERATION_STRUCTURE_STORAGE_KHR),
+        buffer: Some(STRUCTURE),
+        feature: Some("accelerationStructure"),
+        ..NONE
+    },
+    AccessRow {
+        kind: AccessKind::BuildInput,
+        stages: Stages::ACCELERATION_STRUCTURE_BUILD_KHR,
+        reads: Accesses::SHADER_READ,
+        buffer: Some(BUILD_INPUT),
         feature: Some("accelerationStructure"),
         ..NONE
     },
@@ -231,7 +248,7 @@ const ROWS: &[AccessRow] = &[
         kind: AccessKind::ShaderBindingTable,
         stages: Stages::RAY_TRACING_SHADER_KHR,
         reads: Accesses::SHADER_BINDING_TABLE_READ_KHR,
-        buffer: Some(BufferUsage::SHADER_BINDING_TABLE_KHR),
+        buffer: Some(BufferUsage::SHADER_BINDING_TABLE_KHR.union(BufferUsage::SHADER_DEVICE_ADDRESS)),
         feature: Some("rayTracingMaintenance1"),
         ..NONE
     },

@@ -72,6 +72,9 @@ bitflags! {
         const UNIFORM_READ = 0x8;
         /// Attachments read by fragment shaders at their own position.
         const INPUT_ATTACHMENT_READ = 0x10;
+        /// What acceleration structures are built from: vertices, indices, boxes, transforms and instances. What shaders read has words
+        /// of its own.
+        const SHADER_READ = 0x20;
         /// Blending, load operations.
         const COLOR_ATTACHMENT_READ = 0x80;
         /// Colour writes, clear and don't-care loads, stores, resolves.
@@ -92,9 +95,9 @@ bitflags! {
         const MEMORY_READ = 0x8000;
         /// Any write.
         const MEMORY_WRITE = 0x1_0000;
-        /// Acceleration structures: traced, built from, copied.
+        /// Acceleration structures: traced, built from, copied. Scratch memory of a build.
         const ACCELERATION_STRUCTURE_READ_KHR = 0x20_0000;
-        /// Acceleration structures: built, copied into.
+        /// Acceleration structures: built, copied into. Scratch memory of a build.
         const ACCELERATION_STRUCTURE_WRITE_KHR = 0x40_0000;
         /// Shading rates.
         const FRAGMENT_SHADING_RATE_ATTACHMENT_READ_KHR = 0x80_0000;
@@ -208,15 +211,24 @@ bitflags! {
         const INDIRECT_BUFFER = 0x100;
         /// Shader binding tables.
         const SHADER_BINDING_TABLE_KHR = 0x400;
+        /// Has an address.
+        const SHADER_DEVICE_ADDRESS = 0x2_0000;
+        /// Acceleration structures are built from it.
+        const ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_KHR = 0x8_0000;
         /// Holds acceleration structures.
         const ACCELERATION_STRUCTURE_STORAGE_KHR = 0x10_0000;
     }
 }
 
 impl BufferUsage {
-    /// Those that no extension brings.
-    pub const CORE: BufferUsage = BufferUsage::all()
-        .difference(BufferUsage::SHADER_BINDING_TABLE_KHR.union(BufferUsage::ACCELERATION_STRUCTURE_STORAGE_KHR));
+    /// Those that no extension and no feature brings.
+    pub const CORE: BufferUsage = BufferUsage::TRANSFER_SRC
+        .union(BufferUsage::TRANSFER_DST)
+        .union(BufferUsage::UNIFORM_BUFFER)
+        .union(BufferUsage::STORAGE_BUFFER)
+        .union(BufferUsage::INDEX_BUFFER)
+        .union(BufferUsage::VERTEX_BUFFER)
+        .union(BufferUsage::INDIRECT_BUFFER);
 }
 
 bitflags! {

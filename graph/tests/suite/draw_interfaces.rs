@@ -317,6 +317,38 @@ fn sets_of_a_program_are_written_and_read_again() {
     assert_eq!(read(SETS), Ok(interfaces));
 }
 
+/// What shaders follow beside bindings that bound them: rays and addresses (DO-4).
+#[test]
+fn do_4_acceleration_structures_and_addresses_are_written_and_read_again() {
+    const TRACED: &str = r#"Interface(
+    version: 1,
+    draws: [
+    ],
+    sets: [
+        (
+            set: 1,
+            bindings: [
+                (binding: 0, kind: AccelerationStructure, stages: [Fragment]),
+            ],
+        ),
+    ],
+    addresses: true,
+)
+"#;
+    let scene = ProgramBinding::new(0, DescriptorType::AccelerationStructure).with_stages(Stages::FRAGMENT_SHADER);
+    let interfaces = DrawInterfaces::default().with_set(ProgramSet::new(1, [scene]));
+    assert!(!interfaces.addresses());
+    let interfaces = interfaces.with_addresses();
+    assert_eq!(interfaces.to_ron(), TRACED);
+    assert_eq!(read(TRACED), Ok(interfaces.clone()));
+    let none = read(&TRACED.replace("addresses: true", "addresses: false")).expect("an interface");
+    assert!(!none.addresses() && none.sets() == interfaces.sets());
+    let shown = read(&TRACED.replace("addresses: true", "addresses: all")).expect_err("a mistake");
+    assert!(shown.contains("13:16"), "{shown}");
+    let shown = read(&TRACED.replace("Structure,", "Structure, count: 17,")).expect_err("a mistake");
+    assert!(shown.contains("17 acceleration structures; every device that has such allows 16"), "{shown}");
+}
+
 #[test]
 fn every_mistake_in_a_set_of_a_program_is_told_at_its_place() {
     let wrong = |old: &str, new: &str, place: &str, said: &str| {

@@ -11,6 +11,7 @@ mod compile_raster;
 mod compressed;
 mod custom_passes;
 mod decided;
+mod declared_builds;
 mod declared_uses;
 mod demotion;
 mod depth_ladder;

@@ -78,6 +78,7 @@ pub(super) fn possible(stage: Stages, access: Accesses) -> bool {
         | Accesses::SHADER_STORAGE_WRITE => SHADERS,
         Accesses::ACCELERATION_STRUCTURE_READ_KHR => SHADERS.union(BUILDS),
         Accesses::ACCELERATION_STRUCTURE_WRITE_KHR => BUILDS,
+        Accesses::SHADER_READ => BUILD,
         Accesses::SHADER_BINDING_TABLE_READ_KHR => Stages::RAY_TRACING_SHADER_KHR,
         Accesses::FRAGMENT_SHADING_RATE_ATTACHMENT_READ_KHR => Stages::FRAGMENT_SHADING_RATE_ATTACHMENT_KHR,
         _ => Stages::all(),

@@ -17,6 +17,15 @@ static const char SHADER[] =
     "layout(location = 0) out vec4 color;\n"
     "void main() { color = tint; }\n";
 
+/* Follows the address of a colour. */
+static const char FOLLOWS[] =
+    "#version 460\n"
+    "#extension GL_EXT_buffer_reference : require\n"
+    "layout(buffer_reference, std430) readonly buffer Color { vec4 color; };\n"
+    "layout(set = 3, binding = 1) uniform Head { Color head; };\n"
+    "layout(location = 0) out vec4 color;\n"
+    "void main() { color = head.color; }\n";
+
 static void check(FramewrightStatus status) {
     if (status != FRAMEWRIGHT_STATUS_OK) {
         fprintf(stderr, "%s\n", framewright_last_error());
@@ -87,9 +96,13 @@ int main(void) {
     FramewrightDevice *device;
     check(framewright_device_adopt(&program, &device));
 
-    /* Red, and 256 bytes behind it green. */
+    /* Red, 256 bytes behind it green, and again as far behind it the address of green. */
+    int addresses = v1_2.bufferDeviceAddress;
     VkBufferCreateInfo buffer_info = {
-        .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = 512, .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT};
+        .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = 768, .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT};
+    if (addresses) {
+        buffer_info.usage |= VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+    }
     VkBuffer buffer;
     vk(vkCreateBuffer(raw, &buffer_info, NULL, &buffer));
     VkMemoryRequirements needs;
@@ -97,7 +110,10 @@ int main(void) {
     VkPhysicalDeviceMemoryProperties types;
     vkGetPhysicalDeviceMemoryProperties(physical, &types);
     const VkMemoryPropertyFlags mapped = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-    VkMemoryAllocateInfo memory_info = {VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, NULL, needs.size, 0};
+    VkMemoryAllocateFlagsInfo memory_flags = {
+        .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO, .flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT};
+    VkMemoryAllocateInfo memory_info = {
+        VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, addresses ? &memory_flags : NULL, needs.size, 0};
     while (!(needs.memoryTypeBits >> memory_info.memoryTypeIndex & 1)
            || (types.memoryTypes[memory_info.memoryTypeIndex].propertyFlags & mapped) != mapped) {
         ++memory_info.memoryTypeIndex;
@@ -110,6 +126,11 @@ int main(void) {
     const float red[4] = {1, 0, 0, 1}, green[4] = {0, 1, 0, 1};
     memcpy(bytes, red, sizeof red);
     memcpy((char *)bytes + 256, green, sizeof green);
+    if (addresses) {
+        VkBufferDeviceAddressInfo address_info = {VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO, NULL, buffer};
+        VkDeviceAddress address = vkGetBufferDeviceAddress(raw, &address_info) + 256;
+        memcpy((char *)bytes + 512, &address, sizeof address);
+    }
 
     /* The program's set. */
     VkDescriptorSetLayoutBinding binding = {
@@ -164,8 +185,26 @@ int main(void) {
         framewright_renderer_free(renderer);
     }
 
-    /* What doesn't fit is told when the renderer is opened, or planned. */
+    /* Addresses are followed where the program says so. */
     FramewrightRenderer *none;
+    write_file("tint.frag", FOLLOWS);
+    for (uint32_t said = 0; said < 2 && addresses; ++said) {
+        options.addresses = said;
+        check(framewright_renderer_open(device, "sets.ron", &options, &none));
+        check(framewright_renderer_set_extent(none, 4, 4));
+        uint32_t offset = 512;
+        check(framewright_renderer_bind_set(none, 3, set, &offset, 1));
+        if (!said) {
+            FAILS(framewright_renderer_frame(none, NULL), MISTAKES, "no program says that it hands addresses out");
+        } else if (drawn(none) != 0x00ff00) {
+            return EXIT_FAILURE;
+        }
+        framewright_renderer_free(none);
+    }
+    options.addresses = 0;
+    write_file("tint.frag", SHADER);
+
+    /* What doesn't fit is told when the renderer is opened, or planned. */
     told = (FramewrightSet){.set = 1, .bindings = &binding, .binding_count = 1};
     FAILS(framewright_renderer_open(device, "sets.ron", &options, &none), MISUSE, "set 1 is the draw source's");
     told.set = 3;

@@ -14,7 +14,6 @@ const DRAWN: Stages = Stages::VERTEX_SHADER
     .union(Stages::DRAW_INDIRECT)
     .union(Stages::TASK_SHADER_EXT)
     .union(Stages::MESH_SHADER_EXT)
-    .union(Stages::FRAGMENT_SHADING_RATE_ATTACHMENT_KHR)
     .union(Stages::ALL_COMMANDS);
 
 /// Reports what is wrong with the uses that a pass declares.
@@ -179,6 +178,14 @@ impl Check<'_> {
             return Some(self.wrong(message, "leave HOST, HOST_READ and HOST_WRITE out"));
         }
         let drawn = pass.work.draws(Draw::is_custom);
+        let rates = Accesses::FRAGMENT_SHADING_RATE_ATTACHMENT_READ_KHR;
+        if drawn && (accesses.intersects(rates) || stages.intersects(Stages::FRAGMENT_SHADING_RATE_ATTACHMENT_KHR)) {
+            let message =
+                format!("`{name}` is declared as the shading rates of the pass's rendering scope, which has none");
+            let help =
+                "a custom pass without targets begins a rendering scope of its own, and attaches the rates there";
+            return Some(self.wrong(message, help));
+        }
         let foreign = stages - DRAWN;
         if drawn && !foreign.is_empty() {
             let message = format!("the pass draws within a rendering scope, where no {} is", words(foreign));
