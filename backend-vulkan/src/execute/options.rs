@@ -19,6 +19,15 @@ pub struct ExecutorOptions {
     /// that each queue was at ([`AtStep`](crate::Error::AtStep)). Each step then waits for all before it, as with `full_barriers`; the host
     /// waits for none. A lost device may take its notes with it.
     pub breadcrumbs: bool,
+    /// Whether what custom passes do is held against what the pipeline says of them. What a pass doesn't write must be the same after it.
+    /// Images of one sample and buffers that it doesn't name hold garbage while its commands run, and are given back what they held: a pass
+    /// that reads them shows another picture. What it asks its recorder for it must name. Under the validation layer findings are led back to
+    /// what passes [declare](framewright_graph::frame::DeclaredUse); then contents are looked at in every second frame, since that takes
+    /// barriers, which hide hazards. A broken promise is an error of the frame that is waited for
+    /// ([`BrokenPromises`](crate::Error::BrokenPromises)), also of one that a later frame waits for. Needs a Plan that was compiled as
+    /// [`readable`](framewright_graph::compile::Options::readable), and takes twice the memory of all that lives beside such a pass, in memory
+    /// that the host reads. On several queues the frame is executed step by step.
+    pub check_uses: bool,
     /// How long the device may take for a frame. If it takes longer the device is given up: nothing that was made from it
     /// can be used any more.
     pub timeout: Duration,
@@ -50,6 +59,7 @@ impl Default for ExecutorOptions {
             full_barriers: false,
             step_by_step: false,
             breadcrumbs: false,
+            check_uses: false,
             timeout,
             frames_in_flight: 1,
             readback: false,

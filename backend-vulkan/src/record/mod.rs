@@ -1,5 +1,6 @@
 //! Recording of a prepared frame's commands.
 
+mod asked_names;
 mod bindings;
 mod bound_sets;
 mod breadcrumbs;
@@ -13,9 +14,11 @@ mod frame_params;
 mod frame_resources;
 mod guarded_source;
 mod observers;
+mod pass_watch;
 mod recorded_frame;
 mod recorder;
 mod scope;
+mod secondary;
 mod state;
 mod step;
 mod timing;
@@ -25,13 +28,14 @@ pub use custom_image::CustomImage;
 pub use dispatch::DispatchRecorder;
 pub use draw_source::DrawSource;
 pub use recorder::{IndexType, Recorder};
+pub use secondary::SecondaryRecorder;
 pub use timing::{FrameReport, PassReport, StepReport};
 
 pub(crate) use breadcrumbs::Breadcrumbs;
 pub(crate) use fragments::FragmentCounts;
 pub(crate) use guarded_source::GuardedSource;
 pub(crate) use observers::Observers;
+pub(crate) use pass_watch::PassWatch;
 pub(crate) use recorded_frame::RecordedFrame;
-pub(crate) use state::CommandState;
 pub(crate) use step::Recording;
 pub(crate) use timing::{Timing, report};

@@ -117,7 +117,7 @@ pub fn frames(pipeline: &Pipeline) -> u32 {
 /// How a pipeline is compiled: with poison, so that a pass that reads memory of another image shows it.
 #[must_use]
 pub fn options(order: Order, seed: u64) -> Options {
-    Options { alias: true, poison: true, order, demote: seed & 1 == 0, queues: true }
+    Options { alias: true, poison: true, readable: false, order, demote: seed & 1 == 0, queues: true }
 }
 
 impl Judge {
