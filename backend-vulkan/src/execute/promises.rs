@@ -3,7 +3,7 @@
 use crate::base::{BrokenPromise, Error};
 use crate::gpu::{Gpu, Message};
 use crate::prepare::{DeclaredUse, WatchedStep, declared_uses, watch_list};
-use crate::record::PassWatch;
+use crate::record::{PassWatch, UntouchedTexels};
 use framewright_graph::plan::Plan;
 use std::sync::Arc;
 
@@ -11,6 +11,7 @@ use std::sync::Arc;
 pub(super) struct Promises {
     pub(super) steps: Arc<[WatchedStep]>,
     declared: Vec<DeclaredUse>,
+    untouched: UntouchedTexels,
     /// How many messages of the layer were heard.
     heard: usize,
     /// What was found and not told yet.
@@ -22,13 +23,19 @@ impl Promises {
     pub(super) fn new(gpu: &Gpu, plan: &Plan) -> Result<Promises, Error> {
         let heard = gpu.instance.validation.as_ref().map_or(0, |it| it.messages.list().len());
         let steps = watch_list(gpu, plan)?.into();
-        Ok(Promises { steps, declared: declared_uses(plan), heard, broken: Vec::new() })
+        Ok(Promises {
+            steps,
+            declared: declared_uses(plan),
+            untouched: UntouchedTexels::default(),
+            heard,
+            broken: Vec::new(),
+        })
     }
 
     /// Looks at what a frame that was waited for left, and at what the layer has said since it was asked last.
     pub(super) fn look(&mut self, gpu: &Gpu, watch: Option<&PassWatch>) -> Result<(), Error> {
         if let Some(watch) = watch {
-            self.broken.extend(watch.broken()?);
+            self.broken.extend(watch.broken(&mut self.untouched)?);
         }
         let Some(validation) = &gpu.instance.validation else { return Ok(()) };
         let said = validation.messages.list();

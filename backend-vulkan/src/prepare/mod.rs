@@ -43,4 +43,4 @@ pub(crate) use supplied_sets::{SuppliedBlock, SuppliedSet, SuppliedSets};
 pub(crate) use textures::{StagedTexture, file_of, stage_textures};
 pub(crate) use uses::ResourceUses;
 pub(crate) use variant::view_mask;
-pub(crate) use watch_list::{DeclaredUse, WatchedPart, WatchedStep, declared_uses, watch_list};
+pub(crate) use watch_list::{DeclaredUse, PartPromise, WatchedPart, WatchedStep, declared_uses, watch_list};

@@ -1,5 +1,5 @@
-//! What custom passes must leave as it is: for each step that a program records, the parts of images and the buffers that none of its
-//! passes writes.
+//! What tells whether custom passes keep to what they declare: for each step that a program records, the parts of images and the buffers
+//! that it must leave as they are, or set.
 
 use super::descriptions::part;
 use super::uses::ResourceUses;
@@ -10,10 +10,12 @@ use framewright_graph::frame::Draw;
 use framewright_graph::plan::{
     Access, BufferAccess, FirstContents, Image, ImageId, Pass, Plan, Queue, Resource, Role, Step, StepId,
 };
-use framewright_graph::vulkan::{Aspects, BufferUsage, Format, Layout, Sharing, Subresources, Usage, name_of};
+use framewright_graph::vulkan::{
+    Accesses, Aspects, BufferUsage, Format, Layout, Sharing, Subresources, Usage, name_of,
+};
 use std::collections::HashMap;
 
-/// A step with passes that the program records, and what they must leave as it is.
+/// A step with passes that the program records, and what tells whether they keep to what they declare.
 pub(crate) struct WatchedStep {
     pub(crate) step: usize,
     /// The passes that the program records, and where the pipeline says so.
@@ -21,7 +23,7 @@ pub(crate) struct WatchedStep {
     pub(crate) parts: Vec<WatchedPart>,
 }
 
-/// A part of an image, or a buffer, that no pass of a step writes.
+/// A part of an image, or a buffer, whose contents say whether the passes of a step keep to what they declare.
 pub(crate) struct WatchedPart {
     pub(crate) resource: Resource,
     /// Of an image: one mip level and one plane of one layer, or of both eyes' layers.
@@ -31,8 +33,20 @@ pub(crate) struct WatchedPart {
     pub(crate) name: String,
     /// The format of an image.
     pub(crate) format: Option<Format>,
-    /// What the step's passes say of it; `None`: they don't name it, and it holds garbage meanwhile.
+    /// What the step's passes say of it; `None`: they don't name it.
     pub(crate) said: Option<String>,
+    pub(crate) promise: PartPromise,
+}
+
+/// What the passes of a step promise of a part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum PartPromise {
+    /// They don't name it: it is the same after them, and holds garbage meanwhile.
+    Unnamed,
+    /// They read it: it is the same after them.
+    Read,
+    /// They set all of it. What it held before is given up.
+    Replaced,
 }
 
 /// A use that a custom pass declares.
@@ -166,7 +180,7 @@ impl Contents {
     }
 }
 
-/// What the passes of a step leave as it is, of all that lives then and can be copied.
+/// What tells whether the passes of a step keep to what they declare, of all that can be copied.
 fn watched_parts(
     gpu: &Gpu,
     plan: &Plan,
@@ -183,60 +197,67 @@ fn watched_parts(
             || image.sharing == Sharing::Concurrent
             || states.owners[image.id.0 as usize].is_some_and(|queue| family(queue) == family(step.queue));
         let copied = image.samples == 1 && !image.usage.contains(Usage::TRANSIENT_ATTACHMENT);
-        if !here || !copied || !lives(plan, uses, resource, number) {
+        if !here || !copied {
             continue;
         }
-        // The scope's attachments are the scope's own: what it doesn't store is lost.
-        let named: Vec<_> =
-            accesses(step, image.id).flat_map(|it| parts_of(image, it.range).map(move |(key, _)| (key, it))).collect();
-        let of_scope = |key: &PartKey| {
-            let ranges = step.work.attachments().flat_map(|it| {
+        let accesses = || step.work.passes().iter().flat_map(|pass| &pass.accesses).filter(|it| it.image == image.id);
+        let is_in = |key: PartKey, range| parts_of(image, range).any(|(part, _)| part == key);
+        for (key, range) in parts_of(image, Subresources::WHOLE) {
+            let layout = states.layouts[image.id.0 as usize].get(&key).copied().unwrap_or(Layout::Undefined);
+            // The scope's attachments are the scope's own: what it doesn't store is lost.
+            let mut attached = step.work.attachments().flat_map(|it| {
                 let resolved = it.resolve.as_ref().map(|resolve| (resolve.image, resolve.range));
                 std::iter::once((it.image, it.range)).chain(resolved)
             });
-            ranges
-                .filter(|(of, _)| *of == image.id)
-                .any(|(_, range)| parts_of(image, range).any(|(part, _)| part == *key))
-        };
-        for (key, range) in parts_of(image, Subresources::WHOLE) {
-            let layout = states.layouts[image.id.0 as usize].get(&key).copied().unwrap_or(Layout::Undefined);
-            let mut said = named.iter().filter(|(part, _)| *part == key).map(|(_, access)| access).peekable();
-            let is_named = said.peek().is_some();
-            let said: Vec<_> = said.collect();
-            let written = said.iter().any(|access| !access.accesses.writes().is_empty());
-            if layout == Layout::Undefined || written || of_scope(&key) || !is_named && is_file(&image.role) {
+            if layout == Layout::Undefined || attached.any(|(of, range)| of == image.id && is_in(key, range)) {
                 continue;
             }
-            let format = Some(image.format);
-            let said = is_named.then(|| said.iter().map(|access| of_image(access)).collect::<Vec<_>>().join("; "));
-            parts.push(WatchedPart { resource, range, layout, name: image.name.to_string(), format, said });
+            let named = accesses().filter(|it| is_in(key, it.range));
+            let named: Vec<_> = named.map(|access| (access.accesses, of_image(access))).collect();
+            let mut given_up = step.image_barriers.iter().filter(|it| it.image == image.id);
+            let gives_up = given_up.any(|it| it.old_layout == Layout::Undefined && is_in(key, it.range))
+                || begins(plan, resource, number);
+            let lives = lives(plan, uses, resource, number) && !(named.is_empty() && is_file(&image.role));
+            if let Some(promise) = promise(&named, gives_up, lives) {
+                let (name, said) = (image.name.to_string(), said(named));
+                parts.push(WatchedPart { resource, range, layout, name, format: Some(image.format), said, promise });
+            }
         }
     }
     for buffer in &plan.buffers {
-        let resource = Resource::Buffer(buffer.id);
-        let said: Vec<_> =
-            step.work.passes().iter().flat_map(|pass| &pass.buffers).filter(|it| it.buffer == buffer.id).collect();
-        let written = said.iter().any(|access| !access.accesses.writes().is_empty());
-        if written || !lives(plan, uses, resource, number) {
-            continue;
+        let (resource, name) = (Resource::Buffer(buffer.id), buffer.name.to_string());
+        let accesses = step.work.passes().iter().flat_map(|pass| &pass.buffers).filter(|it| it.buffer == buffer.id);
+        let named: Vec<_> = accesses.map(|access| (access.accesses, of_buffer(access))).collect();
+        let (range, layout) = (Subresources::WHOLE, Layout::Undefined);
+        let gives_up = begins(plan, resource, number);
+        if let Some(promise) = promise(&named, gives_up, lives(plan, uses, resource, number)) {
+            let said = said(named);
+            parts.push(WatchedPart { resource, range, layout, name, format: None, said, promise });
         }
-        let name = buffer.name.to_string();
-        let said =
-            (!said.is_empty()).then(|| said.iter().map(|access| of_buffer(access)).collect::<Vec<_>>().join("; "));
-        parts.push(WatchedPart {
-            resource,
-            range: Subresources::WHOLE,
-            layout: Layout::Undefined,
-            name,
-            format: None,
-            said,
-        });
     }
     parts
 }
 
-fn accesses(step: &Step, image: ImageId) -> impl Iterator<Item = &Access> {
-    step.work.passes().iter().flat_map(|pass| &pass.accesses).filter(move |access| access.image == image)
+/// What passes promise that access a part so, each with its words. `gives_up`: whether what it held before isn't there any more; `lives`:
+/// whether it holds something.
+fn promise(named: &[(Accesses, String)], gives_up: bool, lives: bool) -> Option<PartPromise> {
+    let writes = named.iter().any(|(accesses, _)| !accesses.writes().is_empty());
+    let reads = named.iter().any(|(accesses, _)| *accesses != accesses.writes());
+    match (named.is_empty(), writes) {
+        (true, _) => lives.then_some(PartPromise::Unnamed),
+        (false, false) => lives.then_some(PartPromise::Read),
+        (false, true) => (gives_up && !reads).then_some(PartPromise::Replaced),
+    }
+}
+
+fn said(named: Vec<(Accesses, String)>) -> Option<String> {
+    let said: Vec<_> = named.into_iter().map(|(_, said)| said).collect();
+    (!said.is_empty()).then(|| said.join("; "))
+}
+
+/// Whether what lives within the frame is first used by a step.
+fn begins(plan: &Plan, resource: Resource, step: usize) -> bool {
+    plan.role(resource).placement().is_some_and(|place| place.lifetime[0].0 as usize == step)
 }
 
 /// Whether its contents come from a file: there are many of those, and no step writes them.

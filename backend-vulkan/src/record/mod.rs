@@ -5,6 +5,7 @@ mod bindings;
 mod bound_sets;
 mod breadcrumbs;
 mod canvas;
+mod contents;
 mod custom;
 mod custom_image;
 mod dispatch;
@@ -32,6 +33,7 @@ pub use secondary::SecondaryRecorder;
 pub use timing::{FrameReport, PassReport, StepReport};
 
 pub(crate) use breadcrumbs::Breadcrumbs;
+pub(crate) use contents::UntouchedTexels;
 pub(crate) use fragments::FragmentCounts;
 pub(crate) use guarded_source::GuardedSource;
 pub(crate) use observers::Observers;

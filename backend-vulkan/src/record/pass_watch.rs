@@ -1,22 +1,24 @@
 //! Custom passes, held against what the pipeline says of them: what no pass of a step writes is copied before the step and after it, and
-//! must be the same. What they don't name holds garbage meanwhile: a pass that reads it shows another picture.
+//! must be the same. What they don't name holds garbage meanwhile: a pass that reads it shows another picture. What they set all of holds
+//! garbage before them, which must be gone.
 
+use super::contents::{UntouchedTexels, difference};
 use crate::base::{BrokenPromise, Clear, Error, convert};
 use crate::commands::{TransferSide, barrier_call, copy_from_image, copy_to_image, fill, plane_bytes, to_host};
 use crate::gpu::Gpu;
 use crate::memory::{MemoryUse, RawBuffer};
-use crate::prepare::{Frame, WatchedPart, WatchedStep, pattern};
+use crate::prepare::{Frame, PartPromise, WatchedPart, WatchedStep, pattern};
 use ash::vk;
 use framewright_graph::frame::EyeForm;
 use framewright_graph::plan::{Pass, Resource};
-use framewright_graph::vulkan::{Aspects, Format, Layout, Usage};
+use framewright_graph::vulkan::{Aspects, Layout, Usage};
 use std::sync::Arc;
 
 /// Texels of every format begin at a multiple of it: of their size, and of 4.
 const ALIGNMENT: u64 = 48;
 
-/// What a buffer holds that a pass doesn't name: harmless as a count and as an index.
-const WORD: u32 = 1;
+/// What garbage is in a buffer, in turn: harmless as a count and as an index.
+const WORDS: [u32; 2] = [5, 11];
 
 /// The watch over the custom passes of one frame in flight.
 pub(crate) struct PassWatch {
@@ -26,6 +28,8 @@ pub(crate) struct PassWatch {
     copies: Vec<StepCopies>,
     /// The watched step whose commands are being recorded.
     open: Option<usize>,
+    /// Which garbage the frame has.
+    turn: usize,
     /// What the program asked a recorder for, and its pass doesn't name.
     asked: Vec<BrokenPromise>,
 }
@@ -54,7 +58,7 @@ impl PassWatch {
     /// A watch over these steps.
     pub(crate) fn new(gpu: &Arc<Gpu>, steps: &Arc<[WatchedStep]>) -> PassWatch {
         let copies = steps.iter().map(|_| StepCopies::default()).collect();
-        PassWatch { gpu: gpu.clone(), steps: steps.clone(), copies, open: None, asked: Vec::new() }
+        PassWatch { gpu: gpu.clone(), steps: steps.clone(), copies, open: None, turn: 0, asked: Vec::new() }
     }
 
     /// Begins a frame. The one before must have been waited for.
@@ -72,7 +76,9 @@ impl PassWatch {
         if self.gpu.instance.validation.is_some() && frame.number.is_multiple_of(2) {
             return Ok(());
         }
-        let steps = self.steps.clone();
+        // Frames that follow each other, and are looked at, have different garbage.
+        self.turn = if (frame.number / 2).is_multiple_of(2) { 0 } else { 1 };
+        let (steps, turn) = (self.steps.clone(), self.turn);
         let copies = &mut self.copies[number];
         let end = copies.place(frame, &steps[number].parts);
         if copies.buffer.as_ref().is_none_or(|made| made.bytes < end) {
@@ -86,7 +92,7 @@ impl PassWatch {
         copying.turn(&steps[number].parts, false);
         parts().for_each(|(part, place)| copying.take(part, place.before, place.bytes));
         copying.wait();
-        filled().for_each(|(part, _)| copying.spoil(part));
+        filled().for_each(|(part, _)| copying.spoil(part, turn));
         copying.wait();
         for (part, place) in filled() {
             place.garbage.into_iter().for_each(|at| copying.take(part, at, place.bytes));
@@ -105,7 +111,8 @@ impl PassWatch {
         copying.turn(parts, false);
         parts.iter().zip(places).for_each(|(part, place)| copying.take(part, place.after, place.bytes));
         copying.wait();
-        for (part, place) in parts.iter().zip(places).filter(|(_, place)| place.garbage.is_some()) {
+        let unnamed = |part: &WatchedPart| part.promise == PartPromise::Unnamed;
+        for (part, place) in parts.iter().zip(places).filter(|(part, place)| place.garbage.is_some() && unnamed(part)) {
             copying.give_back(part, place.before, place.bytes);
         }
         copying.turn(parts, true);
@@ -121,44 +128,29 @@ impl PassWatch {
         }
     }
 
-    /// What the passes of the frame did that they must not. The frame must have been waited for.
-    pub(crate) fn broken(&self) -> Result<Vec<BrokenPromise>, Error> {
+    /// What the passes of the frame did that they must not. The frame must have been waited for. `untouched`: what earlier frames left
+    /// untouched.
+    pub(crate) fn broken(&self, untouched: &mut UntouchedTexels) -> Result<Vec<BrokenPromise>, Error> {
         let mut broken = self.asked.clone();
         for (watched, StepCopies { buffer, places }) in self.steps.iter().zip(&self.copies) {
             let Some(buffer) = buffer.as_ref().filter(|_| !places.is_empty()) else { continue };
             let bytes = buffer.contents(usize::try_from(buffer.bytes).unwrap_or(usize::MAX))?;
-            for (part, place) in watched.parts.iter().zip(places) {
-                let Some(done) = difference(part, place, bytes) else { continue };
+            for (number, (part, place)) in watched.parts.iter().zip(places).enumerate() {
+                let held = |at: u64| {
+                    let [at, length] = [at, place.bytes].map(|number| usize::try_from(number).unwrap_or(usize::MAX));
+                    bytes.get(at..at.saturating_add(length)).unwrap_or_default()
+                };
+                let (expected, after) = (held(place.garbage.unwrap_or(place.before)), held(place.after));
+                let done = match part.promise {
+                    PartPromise::Unnamed | PartPromise::Read => difference(part, expected, after),
+                    PartPromise::Replaced => untouched.look((watched.step, number), self.turn, part, (expected, after)),
+                };
                 let (passes, resource, declared) = (watched.passes.clone(), part.name.clone(), part.said.clone());
-                broken.push(BrokenPromise { passes, resource, declared, done });
+                broken.extend(done.map(|done| BrokenPromise { passes, resource, declared, done }));
             }
         }
         Ok(broken)
     }
-}
-
-/// How a part differs after its step, in words, if it does. `copies`: all copies of the step.
-fn difference(part: &WatchedPart, place: &CopyPlace, copies: &[u8]) -> Option<String> {
-    let held = |at: u64| {
-        let [at, bytes] = [at, place.bytes].map(|number| usize::try_from(number).unwrap_or(usize::MAX));
-        copies.get(at..at.saturating_add(bytes)).unwrap_or_default()
-    };
-    let pairs = held(place.garbage.unwrap_or(place.before)).iter().zip(held(place.after)).enumerate();
-    let mut changed = pairs.filter(|(at, (before, after))| before != after && !is_unused(part, *at)).map(|(at, _)| at);
-    let first = changed.next()?;
-    let (count, bytes) = (changed.count() + 1, place.bytes);
-    let range = part.range;
-    let of = match part.format {
-        Some(_) => format!(" of mip {}, layer {}", range.base_mip, range.base_layer),
-        None => String::new(),
-    };
-    Some(format!("{count} of {bytes} bytes{of} are others after it, the first is byte {first}"))
-}
-
-/// Whether a byte of a part is none that its format uses: the eight bits behind depth of 24.
-fn is_unused(part: &WatchedPart, at: usize) -> bool {
-    let is_24_bits = matches!(part.format, Some(Format::X8_D24_UNORM_PACK32 | Format::D24_UNORM_S8_UINT));
-    is_24_bits && part.range.aspects == Aspects::DEPTH && at % 4 == 3
 }
 
 impl StepCopies {
@@ -198,7 +190,7 @@ fn bytes(frame: &Frame<'_>, part: &WatchedPart) -> u64 {
     }
 }
 
-/// Whether a part is filled with garbage: its step doesn't name it, and it can be.
+/// Whether a part is filled with garbage: its step doesn't read it, and it can be.
 fn may_be_spoilt(frame: &Frame<'_>, part: &WatchedPart) -> bool {
     let fits = match part.resource {
         Resource::Image(image) => {
@@ -209,7 +201,7 @@ fn may_be_spoilt(frame: &Frame<'_>, part: &WatchedPart) -> bool {
         }
         Resource::Buffer(buffer) => frame.buffer(buffer).usage.contains(vk::BufferUsageFlags::TRANSFER_DST),
     };
-    part.said.is_none() && fits
+    part.promise != PartPromise::Read && fits
 }
 
 /// Copies between parts and a buffer. Images are in the layout `GENERAL` meanwhile.
@@ -295,9 +287,13 @@ impl Copying<'_> {
         unsafe { self.frame.gpu.raw.cmd_copy_buffer2(self.commands, &info) };
     }
 
-    /// Fills a part with garbage.
-    fn spoil(&self, part: &WatchedPart) {
-        let garbage = part.format.map_or(Clear::Word(WORD), pattern);
+    /// Fills a part with garbage. The second one of images is 0.
+    fn spoil(&self, part: &WatchedPart, turn: usize) {
+        let garbage = match part.format {
+            None => Clear::Word(WORDS[turn]),
+            Some(format) if turn == 0 => pattern(format),
+            Some(_) => Clear::Color(vk::ClearColorValue::default()),
+        };
         fill(self.frame.gpu, self.commands, self.side(part), garbage);
     }
 }

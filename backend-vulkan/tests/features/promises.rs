@@ -186,13 +186,126 @@ fn do_8_what_a_program_asks_for_is_declared() {
     });
 }
 
+/// What is told of four frames of a pass that is to set all of an image and a buffer, and sets so many rows of the one and words of the
+/// other.
+fn told_of_parts(device: &Device, [rows, words]: [u32; 2]) -> Vec<String> {
+    let mut small = Small::default();
+    let [mask, shown] = ["mask", "shown"].map(|name| small.image(name, Format::R32_UINT, [4, 2]));
+    let [list, last] = ["list", "last"].map(|name| small.buffer(name, 8));
+    let own = Work::Custom { callback: "own".into() };
+    let [image, buffer, kept] = [Resource::Image(mask), Resource::Buffer(list), Resource::Buffer(last)];
+    let mut own = transfer("own", own, &[(image, WHOLE, true), (buffer, WHOLE, true)]);
+    let accesses = Accesses::TRANSFER_WRITE;
+    own.uses = vec![
+        DeclaredUse::new(image, State { stages: Stages::CLEAR, accesses, layout: Layout::General }),
+        DeclaredUse::new(buffer, State { stages: Stages::CLEAR, accesses, layout: Layout::Undefined }),
+    ];
+    small.pass(own);
+    small.pass(draw("show", Draw::FullScreen).samples("source", mask, WHOLE).draws(shown, WHOLE, None));
+    small.pass(copy("take", (buffer, WHOLE), (kept, WHOLE)));
+    small.image_output(shown);
+    small.buffer_output(last);
+    let plan = planned(device, &small.frame, &Options { readable: true, ..Options::default() });
+    let options = ExecutorOptions { check_uses: true, ..ExecutorOptions::default() };
+    let mut executor = Executor::new(device, &plan, &mut library(SHADERS), &options).expect("an executor");
+    let zeros = staged_zeros(device);
+    let mut record = Custom(|recorder: &mut CustomRecorder<'_>| {
+        let (image, buffer) = (recorder.image("mask").expect("named"), recorder.buffer("list").expect("named"));
+        let (raw, commands) = (device.raw(), recorder.raw());
+        let layers = vk::ImageSubresourceLayers {
+            aspect_mask: vk::ImageAspectFlags::COLOR,
+            layer_count: 1,
+            ..Default::default()
+        };
+        let region = vk::BufferImageCopy::default().image_subresource(layers).image_extent(vk::Extent3D {
+            width: 4,
+            height: rows,
+            depth: 1,
+        });
+        // SAFETY: recording outside of scopes, into what the pass writes.
+        unsafe {
+            raw.cmd_copy_buffer_to_image(commands, zeros.0, image.raw, image.layout, &[region]);
+            // What garbage is, in turn, is no sign that nothing was set.
+            raw.cmd_fill_buffer(commands, buffer, 0, u64::from(4 * words), 5);
+        }
+    });
+    let mut said = Vec::new();
+    for _ in 0..4 {
+        match executor.frame(&mut record) {
+            Ok(_) => {}
+            Err(Error::BrokenPromises { promises }) => said.extend(promises.iter().map(ToString::to_string)),
+            Err(error) => panic!("{error}"),
+        }
+    }
+    drop(executor);
+    // SAFETY: the frames were waited for.
+    unsafe {
+        device.raw().destroy_buffer(zeros.0, None);
+        device.raw().free_memory(zeros.1, None);
+    }
+    said
+}
+
+/// A buffer of 32 bytes to copy from, all 0.
+fn staged_zeros(device: &Device) -> (vk::Buffer, vk::DeviceMemory) {
+    let raw = device.raw();
+    let info = vk::BufferCreateInfo::default().size(32).usage(vk::BufferUsageFlags::TRANSFER_SRC);
+    let (instance, physical) = device.raw_physical();
+    // SAFETY: the device lives; buffer and memory are new, and the memory is large enough.
+    unsafe {
+        let buffer = raw.create_buffer(&info, None).expect("a buffer");
+        let needs = raw.get_buffer_memory_requirements(buffer);
+        let types = instance.get_physical_device_memory_properties(physical);
+        let visible = vk::MemoryPropertyFlags::HOST_VISIBLE | vk::MemoryPropertyFlags::HOST_COHERENT;
+        let fits = |ty: &u32| {
+            needs.memory_type_bits >> ty & 1 == 1 && types.memory_types[*ty as usize].property_flags.contains(visible)
+        };
+        let ty = (0..types.memory_type_count).find(fits).expect("memory that the host writes");
+        let memory = vk::MemoryAllocateInfo::default().allocation_size(needs.size).memory_type_index(ty);
+        let memory = raw.allocate_memory(&memory, None).expect("memory");
+        raw.bind_buffer_memory(buffer, memory, 0).expect("bound");
+        let place = raw.map_memory(memory, 0, 32, vk::MemoryMapFlags::empty()).expect("mapped");
+        place.cast::<u8>().write_bytes(0, 32);
+        raw.unmap_memory(memory);
+        (buffer, memory)
+    }
+}
+
+#[test]
+fn do_8_what_a_pass_declares_to_set_and_leaves_untouched_is_told() {
+    on_each_driver_with(|device| {
+        let of_contents = |counts| {
+            let said = told_of_parts(&device, counts);
+            said.into_iter().filter(|it| !it.contains("validation layer")).collect::<Vec<_>>()
+        };
+        assert_eq!(of_contents([2, 8]), [""; 0]);
+        let image = "pass `own` declares `mask` as CLEAR, TRANSFER_WRITE, GENERAL, and 4 of 8 texels of mip 0, layer 0 are not set by \
+                     it, the first is number 4";
+        let buffer = "pass `own` declares `list` as CLEAR, TRANSFER_WRITE, and 1 of 8 words is not set by it, the first is number 7";
+        assert_eq!(of_contents([1, 7]), [image, buffer]);
+    });
+}
+
 #[test]
 fn a_plan_that_cannot_be_read_is_refused() {
+    let mut small = Small::default();
+    let [drawn, shown] = ["drawn", "shown"].map(|name| small.image(name, Format::R32_UINT, [4, 2]));
+    let list = small.buffer("list", 8);
+    small.pass(draw("number", Draw::FullScreen).draws(drawn, WHOLE, None));
+    let own = Work::Custom { callback: "own".into() };
+    small.pass(transfer("own", own, &[(Resource::Buffer(list), WHOLE, true)]));
+    small.pass(draw("show", Draw::FullScreen).samples("source", drawn, WHOLE).draws(shown, WHOLE, None));
+    small.buffer_output(list);
+    small.image_output(shown);
     on_each_driver(|device| {
-        let plan = planned(device, &frame(), &Options::default());
         let options = ExecutorOptions { check_uses: true, ..ExecutorOptions::default() };
-        let made = Executor::new(device, &plan, &mut library(SHADERS), &options).map(drop);
-        let said = made.expect_err("it can't be copied").to_string();
-        assert!(said.contains("can't be watched: compile the Plan with `readable`"), "{said}");
+        let made = |readable| {
+            let order = framewright_graph::compile::Order::File;
+            let plan = planned(device, &small.frame, &Options { readable, order, ..Options::default() });
+            Executor::new(device, &plan, &mut library(SHADERS), &options).map(drop).map_err(|error| error.to_string())
+        };
+        assert_eq!(made(true), Ok(()));
+        let said = made(false).expect_err("it can't be copied");
+        assert!(said.contains("`drawn` can't be watched: compile the Plan with `readable`"), "{said}");
     });
 }

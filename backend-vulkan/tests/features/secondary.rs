@@ -50,12 +50,22 @@ struct Program<'d> {
     pipeline: vk::Pipeline,
     /// What the scope's secondary command buffers are begun with, told before the frame.
     formats: ScopeFormats,
-    /// Whether they are recorded anew in each frame; else once, before the first.
-    anew: bool,
+    way: Way,
+}
+
+/// How the program records its draws.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Way {
+    /// Into the frame's own command buffer.
+    Inline,
+    /// On threads, anew in each frame.
+    EachFrame,
+    /// On threads, once before the first frame.
+    Before,
 }
 
 impl Program<'_> {
-    fn new<'d>(device: &'d Device, formats: ScopeFormats, samples: vk::SampleCountFlags, anew: bool) -> Program<'d> {
+    fn new<'d>(device: &'d Device, formats: ScopeFormats, samples: vk::SampleCountFlags, way: Way) -> Program<'d> {
         let (raw, family) = (device.raw(), device.graphics_queue_family());
         let flags = vk::CommandPoolCreateFlags::RESET_COMMAND_BUFFER;
         let buffers = (0..THREADS).map(|_| {
@@ -75,8 +85,8 @@ impl Program<'_> {
         let layout = unsafe { raw.create_pipeline_layout(&vk::PipelineLayoutCreateInfo::default(), None) };
         let layout = layout.expect("a layout");
         let pipeline = white(device, layout, &formats, samples);
-        let program = Program { device, buffers, layout, pipeline, formats, anew };
-        if !anew {
+        let program = Program { device, buffers, layout, pipeline, formats, way };
+        if way == Way::Before {
             program.record_on_threads();
         }
         program
@@ -98,6 +108,18 @@ impl Program<'_> {
         let begin = vk::CommandBufferBeginInfo::default()
             .flags(vk::CommandBufferUsageFlags::RENDER_PASS_CONTINUE)
             .inheritance_info(&inherited);
+        // SAFETY: this thread alone uses the pool, and the scope is of these formats.
+        unsafe {
+            raw.begin_command_buffer(commands, &begin).expect("begun");
+            self.draw(commands, number);
+            raw.end_command_buffer(commands).expect("ended");
+        }
+    }
+
+    /// # Safety
+    /// The command buffer is being recorded within the scope, or for it.
+    unsafe fn draw(&self, commands: vk::CommandBuffer, number: i32) {
+        let raw = self.device.raw();
         let column = |y, height| vk::Rect2D {
             offset: vk::Offset2D { x: 4 + number, y },
             extent: vk::Extent2D { width: 1, height },
@@ -107,15 +129,13 @@ impl Program<'_> {
             [vk::ClearAttachment { aspect_mask: vk::ImageAspectFlags::COLOR, color_attachment: 0, clear_value: red }];
         let below = [vk::ClearRect { rect: column(1, 3), base_array_layer: 0, layer_count: 1 }];
         let viewport = [vk::Viewport { width: 8.0, height: 4.0, max_depth: 1.0, ..vk::Viewport::default() }];
-        // SAFETY: this thread alone uses the pool, and the scope is of these formats.
+        // SAFETY: the caller's word.
         unsafe {
-            raw.begin_command_buffer(commands, &begin).expect("begun");
             raw.cmd_clear_attachments(commands, &red, &below);
             raw.cmd_bind_pipeline(commands, vk::PipelineBindPoint::GRAPHICS, self.pipeline);
             raw.cmd_set_viewport(commands, 0, &viewport);
             raw.cmd_set_scissor(commands, 0, &[column(0, 1)]);
             raw.cmd_draw(commands, 3, 1, 0, 0);
-            raw.end_command_buffer(commands).expect("ended");
         }
     }
 }
@@ -183,18 +203,22 @@ impl Drop for Program<'_> {
 
 impl DrawSource for Program<'_> {
     fn record(&mut self, _: Draw, recorder: &mut Recorder<'_>) -> Result<u32, Error> {
-        panic!("`{}` has secondary command buffers", recorder.pass());
+        assert_eq!(self.way, Way::Inline);
+        let commands = recorder.raw();
+        // SAFETY: the command buffer is being recorded within the scope.
+        (0..4).for_each(|number| unsafe { self.draw(commands, number) });
+        Ok(2 * THREADS)
     }
 
     fn has_secondary(&mut self, callback: &str) -> bool {
-        callback == "own"
+        self.way != Way::Inline && callback == "own"
     }
 
     fn secondary(&mut self, callback: &str, recorder: &mut SecondaryRecorder<'_>) -> Result<u32, Error> {
         assert_eq!((callback, recorder.pass(), recorder.target_extent()), ("own", "own", SIZE));
         assert_eq!(recorder.queue_family(), self.device.graphics_queue_family());
         assert_eq!(*recorder.formats(), self.formats);
-        if self.anew {
+        if self.way == Way::EachFrame {
             self.record_on_threads();
         }
         let buffers: Vec<_> = self.buffers.iter().map(|(_, buffer)| *buffer).collect();
@@ -240,35 +264,40 @@ fn expected([x, y]: [u32; 2]) -> [u8; 4] {
 #[test]
 fn do_8_threads_draw_within_a_scope_that_other_passes_share() {
     on_each_driver(|device| {
-        for (samples, anew) in [(1, true), (1, false), (4, true)] {
-            let plan = planned(device, &frame(samples), &Options::default());
-            let scopes: Vec<_> =
-                plan.steps.iter().filter_map(|step| step.work.scope()).map(|it| it.passes.len()).collect();
-            assert_eq!(scopes[0], 3, "{}", plan.tree());
-            let options = ExecutorOptions { timestamps: true, ..ExecutorOptions::default() };
-            let mut executor = Executor::new(device, &plan, &mut library(SHADERS), &options).expect("an executor");
-            let formats = executor.formats("own").expect("it draws");
-            let count = vk::SampleCountFlags::from_raw(samples);
-            let mut program = Program::new(device, formats, count, anew);
-            for _ in 0..2 {
-                let drawn = executor.frame(&mut program).expect("a frame");
-                let report = executor.report(drawn).expect("a report");
-                assert_eq!(
-                    report.steps[0].passes.iter().map(|pass| pass.draws).collect::<Vec<_>>(),
-                    [1, 2 * THREADS, 1]
-                );
-                for (number, texel) in (0..).zip(texels(&mut executor, "shown", 0)) {
-                    let (at, near) = ([number % SIZE[0], number / SIZE[0]], |a: u8, b: u8| a.abs_diff(b) <= 1);
-                    let (texel, wanted) = (texel.to_ne_bytes(), expected(at));
-                    assert!(
-                        texel.into_iter().zip(wanted).all(|(a, b)| near(a, b)),
-                        "{samples}, {at:?}: {texel:?}, {wanted:?}"
-                    );
-                }
+        for samples in [1, 4] {
+            let [inline, each, before] =
+                [Way::Inline, Way::EachFrame, Way::Before].map(|way| shown(device, samples, way));
+            assert!(inline == each && inline == before, "{samples}: {inline:?}, {each:?}, {before:?}");
+            for (number, texel) in (0..).zip(each).filter(|_| samples == 1) {
+                let at = [number % SIZE[0], number / SIZE[0]];
+                let (texel, wanted) = (texel.to_ne_bytes(), expected(at));
+                let near = texel.into_iter().zip(wanted).all(|(a, b)| a.abs_diff(b) <= 1);
+                assert!(near, "{at:?}: {texel:?}, {wanted:?}");
             }
-            drop(executor);
         }
     });
+}
+
+/// The picture that each of two frames shows.
+fn shown(device: &Device, samples: u32, way: Way) -> Vec<u32> {
+    let plan = planned(device, &frame(samples), &Options::default());
+    let scopes: Vec<_> = plan.steps.iter().filter_map(|step| step.work.scope()).map(|it| it.passes.len()).collect();
+    assert_eq!(scopes[0], 3, "{}", plan.tree());
+    let options = ExecutorOptions { timestamps: true, ..ExecutorOptions::default() };
+    let mut executor = Executor::new(device, &plan, &mut library(SHADERS), &options).expect("an executor");
+    let formats = executor.formats("own").expect("it draws");
+    let mut program = Program::new(device, formats, vk::SampleCountFlags::from_raw(samples), way);
+    let pictures = [(); 2].map(|()| {
+        let drawn = executor.frame(&mut program).expect("a frame");
+        let report = executor.report(drawn).expect("a report");
+        let draws: Vec<_> = report.steps[0].passes.iter().map(|pass| pass.draws).collect();
+        assert_eq!(draws, [1, 2 * THREADS, 1]);
+        texels(&mut executor, "shown", 0)
+    });
+    drop(executor);
+    let [first, second] = pictures;
+    assert_eq!(first, second);
+    first
 }
 
 #[test]
