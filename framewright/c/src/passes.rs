@@ -2,10 +2,11 @@
 
 use crate::arguments::{output, reference, text};
 use crate::last_error::{self, call};
+use crate::renderer::{FramewrightRenderer, with};
 use crate::status::{FramewrightStatus, Problem};
 use framewright::vulkan::Error;
 use framewright::vulkan::ash::vk;
-use framewright::{CustomRecorder, Recorder};
+use framewright::{CustomRecorder, Recorder, SecondaryRecorder};
 use std::ffi::{c_char, c_void};
 use std::ptr;
 
@@ -30,6 +31,9 @@ pub struct FramewrightPass<'p> {
     pub resources: *const FramewrightResources<'p>,
     /// The queue family that the commands are for: that for graphics, or that for compute if the pipeline says `queue: Any`.
     pub queue_family: u32,
+    /// What secondary command buffers are begun with, beside `RENDER_PASS_CONTINUE`, for a pass that `framewright_renderer_set_secondary` says
+    /// has them: then `commands` takes `vkCmdExecuteCommands` and nothing else. NULL for other passes.
+    pub inheritance: *const vk::CommandBufferInheritanceRenderingInfo<'p>,
 }
 
 /// What a pass outside of a rendering scope accesses.
@@ -82,8 +86,29 @@ impl Callback {
             frame,
             resources: ptr::null(),
             queue_family,
+            inheritance: ptr::null(),
         };
         self.call(&name, &custom, pass).map(|()| 1)
+    }
+
+    /// Has the program execute its secondary command buffers inside a rendering scope.
+    pub(crate) fn secondary(&self, custom: &str, recorder: &mut SecondaryRecorder<'_>) -> Result<u32, Error> {
+        let commands = recorder.raw();
+        let ([width, height], frame) = (recorder.target_extent(), recorder.frame());
+        let (queue_family, inheritance) = (recorder.queue_family(), recorder.inheritance());
+        let pass = |name, custom| FramewrightPass {
+            name,
+            custom,
+            commands,
+            in_scope: 1,
+            width,
+            height,
+            frame,
+            resources: ptr::null(),
+            queue_family,
+            inheritance: &raw const inheritance,
+        };
+        self.call(recorder.pass(), custom, pass).map(|()| 1)
     }
 
     /// Has the program record what stands outside of rendering scopes.
@@ -101,6 +126,7 @@ impl Callback {
             frame,
             resources: &resources,
             queue_family,
+            inheritance: ptr::null(),
         };
         self.call(recorder.pass(), custom, pass)
     }
@@ -170,4 +196,62 @@ pub unsafe extern "C" fn framewright_pass_buffer(
         let found = recorder(pass)?.buffer(name);
         output(buffer, "buffer", found.ok_or_else(|| Problem::Misuse(format!("the pass accesses no buffer `{name}`")))?)
     })
+}
+
+/// Has `record` record custom passes, and gives it `context`; NULL: nobody does.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_set_recorder(
+    renderer: *mut FramewrightRenderer,
+    record: FramewrightRecord,
+    context: *mut c_void,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            state.callback = record.map(|record| Callback { record, context });
+            Ok(())
+        })
+    }
+}
+
+/// Says whether the draws of the custom passes that the pipeline calls `custom`, inside rendering scopes, come in secondary command buffers,
+/// which threads of the program record: 0, as at first, or 1. Custom passes outside of scopes execute such ones without a word.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_set_secondary(
+    renderer: *mut FramewrightRenderer,
+    custom: *const c_char,
+    has: u32,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            let custom = text(custom, "custom")?;
+            match has {
+                0 => state.secondary.remove(custom),
+                _ => state.secondary.insert(custom.to_owned()),
+            };
+            Ok(())
+        })
+    }
+}
+
+/// Tells what secondary command buffers of the pass of this name are begun with, before the frame: as `inheritance` of the pass. It begins
+/// with a plan, as a frame does. The formats that it leads to live until this function is called again for the renderer, or it is freed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_inheritance(
+    renderer: *mut FramewrightRenderer,
+    pass: *const c_char,
+    inheritance: *mut vk::CommandBufferInheritanceRenderingInfo<'_>,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            let pass = text(pass, "pass")?;
+            let formats = state.executor()?.formats(pass);
+            let none = || Problem::Misuse(format!("no rendering scope has a pass `{pass}`"));
+            let kept = state.inherited.insert(Box::new(formats.ok_or_else(none)?));
+            // Its formats lie on the heap, where they stay until others take their place.
+            output(inheritance.cast(), "inheritance", kept.inheritance())
+        })
+    }
 }
