@@ -51,7 +51,7 @@ pub mod shaders;
 
 /// Vulkan's own types, for programs that record commands of their own or import images and buffers.
 pub use ash;
-pub use base::{Blame, Cache, CachedFiles, Error, INSTALL, end_process};
+pub use base::{Blame, BrokenPromise, Cache, CachedFiles, Error, INSTALL, end_process};
 pub use commands::Texels;
 pub use execute::{Executor, ExecutorOptions, ExternalStates, OutsideOwner, ResourceState, SemaphorePoint, Submission};
 /// The faces that draws leave out, and which side is the front.
@@ -71,7 +71,7 @@ pub use probe::Canary;
 pub use raw_window_handle;
 pub use record::{
     CustomImage, CustomRecorder, DispatchRecorder, DrawSource, EyeTarget, FrameReport, IndexType, PassReport, Recorder,
-    StepReport,
+    SecondaryRecorder, StepReport,
 };
 pub use resources::{
     BindGroup, Buffer, BufferUsage, DynamicBuffer, ProgramBuffer, ProgramView, RawSet, Resource, Texture,

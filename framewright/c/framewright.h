@@ -265,6 +265,9 @@ typedef struct {
     FramewrightEyeTarget eye_targets[2];
     // Inside a scope, what pipelines of the program's must fit; NULL outside of one.
     const FramewrightFormats *formats;
+    // What secondary command buffers are begun with, beside `RENDER_PASS_CONTINUE`, for a pass that `framewright_renderer_set_secondary` says
+    // has them: then `commands` takes `vkCmdExecuteCommands` and nothing else. NULL for other passes.
+    const VkCommandBufferInheritanceRenderingInfo *inheritance;
 } FramewrightPass;
 
 // An image that a pass accesses.
@@ -286,6 +289,11 @@ typedef struct {
     // The eye whose part alone is meant, of an image that holds both eyes'.
     FramewrightEye eye;
 } FramewrightPassImage;
+
+// Records a custom pass: commands that touch what the pipeline says that the pass touches, and what is the program's own. Returns 0 if it
+// doesn't know the pass, which is an error of the frame. No function is called for the renderer meanwhile, and no
+// exception or longjmp leaves it.
+typedef uint32_t (*FramewrightRecord)(void *context, const FramewrightPass *pass);
 
 // The layout of a descriptor set that the program makes and binds itself.
 typedef struct {
@@ -329,6 +337,11 @@ typedef struct {
 // doesn't know the pass, which is an error of the frame. No function is called for the renderer meanwhile, and no
 // exception or longjmp leaves it.
 typedef uint32_t (*FramewrightRecord)(void *context, const FramewrightPass *pass);
+
+    // Whether what custom passes do is held against what the pipeline says of them, to look for mistakes: 1. A broken promise fails the call
+    // that waits for the frame, or for room for another one, and the frame is done all the same. docs/embedding.md has more.
+    uint32_t check_uses;
+} FramewrightRendererOptions;
 
 // What conditions of a pipeline ask for, for a program that knows its scene. 0 is false.
 typedef struct {
@@ -519,6 +532,22 @@ FramewrightStatus framewright_pass_draw(const FramewrightPass *pass,
                                         uint32_t vertex_count,
                                         uint32_t first_instance,
                                         uint32_t instance_count);
+// Has `record` record custom passes, and gives it `context`; NULL: nobody does.
+FramewrightStatus framewright_renderer_set_recorder(FramewrightRenderer *renderer,
+                                                    FramewrightRecord record,
+                                                    void *context);
+
+// Says whether the draws of the custom passes that the pipeline calls `custom`, inside rendering scopes, come in secondary command buffers,
+// which threads of the program record: 0, as at first, or 1. Custom passes outside of scopes execute such ones without a word.
+FramewrightStatus framewright_renderer_set_secondary(FramewrightRenderer *renderer,
+                                                     const char *custom,
+                                                     uint32_t has);
+
+// Tells what secondary command buffers of the pass of this name are begun with, before the frame: as `inheritance` of the pass. It begins
+// with a plan, as a frame does. The formats that it leads to live until this function is called again for the renderer, or it is freed.
+FramewrightStatus framewright_renderer_inheritance(FramewrightRenderer *renderer,
+                                                   const char *pass,
+                                                   VkCommandBufferInheritanceRenderingInfo *inheritance);
 
 // Reads the pipeline in the file `pipeline`; where there is none, the shipped one of that name. Until it is told otherwise, the frame
 // has 1280×720 texels, and the scene may hold everything. `options` may be NULL.

@@ -62,8 +62,8 @@ pub use framewright_vulkan::{
     BindGroup, Buffer, BufferUsage, CullMode, CustomImage, CustomRecorder, Device, DeviceOptions, DispatchRecorder,
     DrawSource, DynamicBuffer, Executor, ExecutorOptions, EyeTarget, FrameReport, FrontFace, Helper, IndexType,
     LocalReads, Overlay, PrecompiledShaders, PresentMode, Presentation, ProgramBuffer, ProgramView, RawSet, Recorder,
-    Resource, SamplerDescriptor, ScopeFormats, SemaphorePoint, SetLayouts, ShaderCompilers, ShaderLibrary, Submission,
-    Surface, Swapchain, SwapchainOptions, Texels, Texture,
+    Resource, SamplerDescriptor, ScopeFormats, SecondaryRecorder, SemaphorePoint, SetLayouts, ShaderCompilers,
+    ShaderLibrary, Submission, Surface, Swapchain, SwapchainOptions, Texels, Texture,
 };
 pub use options::RendererOptions;
 pub use pipeline::{Pipeline, PlannedFrame};

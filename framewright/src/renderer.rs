@@ -102,7 +102,8 @@ impl Renderer {
         Renderer::begin(device, Origin::Text { name: name.to_owned(), text: text.to_owned() }, options)
     }
 
-    fn begin(device: &Device, origin: Origin, options: RendererOptions) -> Result<Renderer, Error> {
+    fn begin(device: &Device, origin: Origin, mut options: RendererOptions) -> Result<Renderer, Error> {
+        options.compile.readable |= options.executor.check_uses;
         let read = ReadFiles::default();
         Ok(Renderer {
             pipeline: Pipeline::of(&origin, &options, &read)?,

@@ -33,6 +33,7 @@ impl Error {
             Error::BadResource { .. }
             | Error::Recording { .. }
             | Error::NotImported { .. }
+            | Error::BrokenPromises { .. }
             | Error::DrawSource { .. } => Code::DRAWING_PROGRAM,
         }
     }

@@ -1,6 +1,6 @@
 //! Everything that can go wrong here, as data; the sentence is made where it is shown.
 
-use super::named;
+use super::{BrokenPromise, named};
 use ash::vk;
 use framewright_graph::base::{amount, escape};
 use framewright_graph::device::MemoryNeeds;
@@ -266,6 +266,13 @@ pub enum Error {
         /// The misuse, in words.
         what: String,
     },
+    /// Custom passes did what the pipeline doesn't say of them: [`ExecutorOptions::check_uses`](crate::ExecutorOptions::check_uses) has
+    /// found it. The frame is done all the same.
+    #[error("{}", broken(promises))]
+    BrokenPromises {
+        /// What they did, at least one thing.
+        promises: Vec<BrokenPromise>,
+    },
     /// A frame was to be drawn before the program imported again what it had imported for the Plan before.
     #[error("the Plan is another one: `{}` is to be imported again", escape(name))]
     NotImported {
@@ -330,7 +337,8 @@ impl Error {
             | Error::Cancelled { .. }
             | Error::Violations { .. }
             | Error::OtherMemoryNeeds { .. }
-            | Error::Recording { .. } => Blame::Program,
+            | Error::Recording { .. }
+            | Error::BrokenPromises { .. } => Blame::Program,
         }
     }
 
@@ -417,6 +425,10 @@ fn disabled() -> String {
 
 fn list(texts: &[String]) -> String {
     texts.iter().map(|text| escape(text)).collect::<Vec<_>>().join("; ")
+}
+
+fn broken(promises: &[BrokenPromise]) -> String {
+    promises.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
 }
 
 fn sentences(violations: &[Violation]) -> String {

@@ -1,5 +1,6 @@
 //! Foundation of the other modules: errors, Vulkan's enumerants, cancelling, the cache folder, the operating system.
 
+mod broken_promise;
 mod cache;
 mod cancel;
 mod code;
@@ -10,6 +11,7 @@ mod kept_files;
 mod platform;
 mod shader_stage;
 
+pub use broken_promise::BrokenPromise;
 pub use cache::{Cache, CachedFiles};
 pub use error::{Blame, Error, INSTALL};
 pub use platform::end_process;

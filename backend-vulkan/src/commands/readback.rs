@@ -108,7 +108,8 @@ fn buffer(gpu: &Arc<Gpu>, bytes: u64) -> Result<RawBuffer, Error> {
     RawBuffer::new(gpu, "readback", bytes, vk::BufferUsageFlags::TRANSFER_DST, MemoryUse::Readback)
 }
 
-fn to_host() -> vk::MemoryBarrier2<'static> {
+/// From copies to the host.
+pub(crate) fn to_host() -> vk::MemoryBarrier2<'static> {
     vk::MemoryBarrier2::default()
         .src_stage_mask(vk::PipelineStageFlags2::COPY)
         .src_access_mask(vk::AccessFlags2::TRANSFER_WRITE)

@@ -62,14 +62,7 @@ pub(crate) fn copy_between(gpu: &Gpu, commands: vk::CommandBuffer, source: Trans
             unsafe { device.cmd_copy_image2(commands, &info) };
         }
         (TransferSide::Image(from), TransferSide::Buffer { buffer, .. }) => {
-            let regions = [rows(from)];
-            let info = vk::CopyImageToBufferInfo2::default()
-                .src_image(from.image)
-                .src_image_layout(from.layout)
-                .dst_buffer(buffer)
-                .regions(&regions);
-            // SAFETY: recording outside a scope; the part is in this layout, and the buffer holds its texels.
-            unsafe { device.cmd_copy_image_to_buffer2(commands, &info) };
+            copy_from_image(gpu, commands, from, (buffer, 0));
         }
         (TransferSide::Buffer { buffer, .. }, TransferSide::Image(to)) => copy_to_image(gpu, commands, (buffer, 0), to),
         (TransferSide::Buffer { buffer, bytes }, TransferSide::Buffer { buffer: to, bytes: to_bytes }) => {
@@ -81,8 +74,25 @@ pub(crate) fn copy_between(gpu: &Gpu, commands: vk::CommandBuffer, source: Trans
     }
 }
 
+/// Copies a part of an image to a buffer, where its texels follow each other from an offset on without gaps.
+pub(crate) fn copy_from_image(
+    gpu: &Gpu,
+    commands: vk::CommandBuffer,
+    from: ImageSide,
+    (buffer, at): (vk::Buffer, u64),
+) {
+    let regions = [rows(from).buffer_offset(at)];
+    let info = vk::CopyImageToBufferInfo2::default()
+        .src_image(from.image)
+        .src_image_layout(from.layout)
+        .dst_buffer(buffer)
+        .regions(&regions);
+    // SAFETY: recording outside a scope; the part is in this layout, and the buffer holds its texels from there on.
+    unsafe { gpu.raw.cmd_copy_image_to_buffer2(commands, &info) };
+}
+
 /// Copies texels without gaps, which begin at an offset in a buffer, to a part of an image.
-pub(super) fn copy_to_image(gpu: &Gpu, commands: vk::CommandBuffer, (buffer, at): (vk::Buffer, u64), to: ImageSide) {
+pub(crate) fn copy_to_image(gpu: &Gpu, commands: vk::CommandBuffer, (buffer, at): (vk::Buffer, u64), to: ImageSide) {
     let regions = [rows(to).buffer_offset(at)];
     let info = vk::CopyBufferToImageInfo2::default()
         .src_buffer(buffer)

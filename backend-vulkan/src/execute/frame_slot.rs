@@ -3,14 +3,13 @@
 use super::import::Import;
 use super::options::ExecutorOptions;
 use super::output_readback::OutputReadback;
+use super::promises::Promises;
 use super::submission::SemaphorePoint;
 use crate::base::Error;
 use crate::commands::{CommandPool, Readback, record};
 use crate::gpu::Gpu;
 use crate::prepare::{Batch, Frame, PreparedPlan};
-use crate::record::{
-    Breadcrumbs, CommandState, DrawSource, FragmentCounts, Observers, RecordedFrame, Recording, Timing,
-};
+use crate::record::{Breadcrumbs, DrawSource, FragmentCounts, Observers, PassWatch, RecordedFrame, Recording, Timing};
 use ash::vk;
 use framewright_graph::plan::Plan;
 use std::sync::Arc;
@@ -52,6 +51,7 @@ impl FrameSlot {
         plan: &Plan,
         batches: &[Batch],
         options: &ExecutorOptions,
+        promises: Option<&Promises>,
     ) -> Result<FrameSlot, Error> {
         let commands = batches.iter().map(|batch| {
             let pool = CommandPool::new(gpu, batch.queue)?;
@@ -66,6 +66,7 @@ impl FrameSlot {
                     true => FragmentCounts::new(gpu, plan, batches.len())?,
                     false => None,
                 },
+                watch: promises.map(|it| PassWatch::new(gpu, &it.steps)),
                 breadcrumbs: options.breadcrumbs.then(|| Breadcrumbs::new(gpu, batches.len())).transpose()?,
             },
             recorded: RecordedFrame::default(),
@@ -89,8 +90,7 @@ impl FrameSlot {
         }
         let buffers: &[(CommandPool, vk::CommandBuffer)] = &self.commands;
         recorded(&mut self.recorded, &mut self.observers, |recorded, observers| {
-            let state = CommandState::default();
-            let mut recording = Recording { frame, prepared, source, observers, recorded, state };
+            let mut recording = Recording::new(frame, prepared, source, observers, recorded);
             for (batch, (_, buffer)) in batches.iter().zip(buffers) {
                 record(frame.gpu, *buffer, |commands| {
                     record_batch(&mut recording, commands, batch, extras, &self.outputs)
@@ -111,8 +111,7 @@ impl FrameSlot {
         extras: &FrameExtras<'_>,
     ) -> Result<(), Error> {
         recorded(&mut self.recorded, &mut self.observers, |recorded, observers| {
-            let state = CommandState::default();
-            let mut recording = Recording { frame, prepared, source, observers, recorded, state };
+            let mut recording = Recording::new(frame, prepared, source, observers, recorded);
             record_batch(&mut recording, commands, batch, extras, &self.outputs)
         })
     }

@@ -3,6 +3,7 @@
 use super::frame_slot::{FrameEnd, FrameExtras, FrameSlot};
 use super::import::Import;
 use super::options::ExecutorOptions;
+use super::promises::Promises;
 use super::submission::{SemaphorePoint, Submission};
 use crate::base::Error;
 use crate::commands::{Readback, Timeline};
@@ -42,6 +43,8 @@ pub(crate) struct Frames {
     pending: PendingWork,
     /// The same of a timeline of the program's.
     given: PendingWork,
+    /// What custom passes promise, if it is checked.
+    promises: Option<Promises>,
 }
 
 impl Frames {
@@ -53,7 +56,11 @@ impl Frames {
         options: &ExecutorOptions,
     ) -> Result<Frames, Error> {
         let extras: Vec<_> = imports.iter().filter_map(|it| it.wait.map(|wait| (it.first, wait))).collect();
-        let batches = batches(plan, &extras, options.step_by_step);
+        let promises = options.check_uses.then(|| Promises::new(gpu, plan)).transpose()?;
+        // What another queue does beside a pass isn't the pass's.
+        let several = plan.steps.iter().any(|step| step.queue != Queue::Graphics);
+        let step_by_step = options.step_by_step || options.check_uses && several;
+        let batches = batches(plan, &extras, step_by_step);
         let mut timelines = Vec::new();
         for queue in batches.iter().filter(|batch| batch.last).map(|batch| batch.queue) {
             timelines.push((queue, Timeline::new(gpu)?));
@@ -63,11 +70,11 @@ impl Frames {
         let semaphores: Vec<_> = own.chain(&outer).map(|timeline| timeline.raw).collect();
         let pending = PendingWork { values: vec![0; semaphores.len()], semaphores };
         let slots = 0..options.frames_in_flight.max(1);
-        let slots = slots.map(|_| FrameSlot::new(gpu, plan, &batches, options));
+        let slots = slots.map(|_| FrameSlot::new(gpu, plan, &batches, options, promises.as_ref()));
         Ok(Frames {
             gpu: gpu.clone(),
             timeout: options.timeout,
-            step_by_step: options.step_by_step,
+            step_by_step,
             titles: match options.breadcrumbs {
                 true => plan.steps.iter().enumerate().map(|(number, step)| numbered(plan, number, step)).collect(),
                 false => Vec::new(),
@@ -82,6 +89,7 @@ impl Frames {
             signals: Vec::new(),
             pending,
             given: PendingWork { semaphores: vec![vk::Semaphore::null()], values: vec![0] },
+            promises,
         })
     }
 
@@ -342,8 +350,14 @@ impl Frames {
         }
     }
 
-    /// Waits until a frame that was submitted is done.
+    /// Waits until a frame that was submitted is done, and tells what custom passes did in it that they must not.
     pub(crate) fn wait(&mut self, frame: u64) -> Result<(), Error> {
+        self.wait_until_done(frame)?;
+        self.promises.as_mut().map_or(Ok(()), Promises::told)
+    }
+
+    /// Waits until a frame that was submitted is done.
+    fn wait_until_done(&mut self, frame: u64) -> Result<(), Error> {
         let at = self.slot_of(frame);
         let end = match self.slots[at].frame {
             Some((there, end)) if there == frame && !self.slots[at].finished => end,
@@ -367,7 +381,10 @@ impl Frames {
             }
         }
         self.slots[at].finished = true;
-        Ok(())
+        match &mut self.promises {
+            Some(promises) => promises.look(&self.gpu, self.slots[at].observers.watch.as_ref()),
+            None => Ok(()),
+        }
     }
 
     /// Waits no more for a frame that the program was to submit.
@@ -379,7 +396,8 @@ impl Frames {
 
     /// Waits for every frame that was submitted.
     pub(crate) fn wait_for_all(&mut self) -> Result<(), Error> {
-        (0..self.slots.len()).try_for_each(|slot| self.slots[slot].frame.map_or(Ok(()), |(frame, _)| self.wait(frame)))
+        (0..self.slots.len())
+            .try_for_each(|slot| self.slots[slot].frame.map_or(Ok(()), |(frame, _)| self.wait_until_done(frame)))
     }
 
     /// Whether a frame was submitted, and no later one has taken its place.

@@ -14,6 +14,7 @@ mod options;
 mod output_readback;
 mod outside_owner;
 mod ownership;
+mod promises;
 mod submission;
 
 pub use executor::Executor;

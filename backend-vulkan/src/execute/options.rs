@@ -19,6 +19,22 @@ pub struct ExecutorOptions {
     /// that each queue was at ([`AtStep`](crate::Error::AtStep)). Each step then waits for all before it, as with `full_barriers`; the host
     /// waits for none. A lost device may take its notes with it.
     pub breadcrumbs: bool,
+    /// Whether what custom passes do is held against what the pipeline says of them, to look for mistakes:
+    ///
+    /// - What a pass doesn't write must be the same after it.
+    /// - What it doesn't name holds garbage while its commands run, and then what it held before: a pass that reads it shows another picture.
+    /// - What it writes and doesn't read holds garbage before it where the Plan gives up what was there, and all of it must be set. That
+    ///   takes two frames.
+    /// - What the program asks the recorder of a pass for, the pass names.
+    /// - What the validation layer finds is led back to what passes [declare](framewright_graph::frame::DeclaredUse). Under the layer,
+    ///   contents are looked at in every second frame, from the second on, since to look takes barriers, which hide hazards.
+    ///
+    /// A broken promise is an error of the call that waits for the frame, or for it to make room for another one
+    /// ([`BrokenPromises`](crate::Error::BrokenPromises)), and is told once; the frame is done all the same. Attachments of rendering scopes,
+    /// images of several samples and textures from files aren't looked at, and depth and compressed images hold no garbage. Needs a Plan
+    /// that was compiled as [`readable`](framewright_graph::compile::Options::readable), and for each such pass three times the memory of
+    /// all that lives beside it, which the host can read. A Plan for several queues is executed step by step.
+    pub check_uses: bool,
     /// How long the device may take for a frame. If it takes longer the device is given up: nothing that was made from it
     /// can be used any more.
     pub timeout: Duration,
@@ -50,6 +66,7 @@ impl Default for ExecutorOptions {
             full_barriers: false,
             step_by_step: false,
             breadcrumbs: false,
+            check_uses: false,
             timeout,
             frames_in_flight: 1,
             readback: false,

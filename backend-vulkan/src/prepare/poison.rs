@@ -128,7 +128,7 @@ fn until_used((stages, accesses): &SyncScope) -> vk::MemoryBarrier2<'static> {
 }
 
 /// A colour that is conspicuous, and spreads where the format allows.
-fn pattern(format: Format) -> Clear {
+pub(crate) fn pattern(format: Format) -> Clear {
     if !format.aspects().contains(Aspects::COLOR) {
         return Clear::DepthStencil(vk::ClearDepthStencilValue { depth: 0.5, stencil: 0xAA });
     }

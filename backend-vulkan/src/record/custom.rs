@@ -1,5 +1,6 @@
 //! How custom passes are recorded.
 
+use super::asked_names::AskedNames;
 use super::custom_image::{CustomImage, named_buffer};
 use crate::base::convert;
 use crate::commands::{TransferSide, barriers, copy_between, fill};
@@ -24,6 +25,7 @@ pub struct CustomRecorder<'f> {
     /// Whether the program has the command buffer.
     has_raw: bool,
     misuse: Option<String>,
+    asked: AskedNames,
 }
 
 /// The image or buffer that a name stands for, as the pass accesses it.
@@ -56,7 +58,16 @@ impl<'f> CustomRecorder<'f> {
         pass: &'f plan::Pass,
         queue: Queue,
     ) -> CustomRecorder<'f> {
-        CustomRecorder { frame, commands, pass, queue, recorded: 0, has_raw: false, misuse: None }
+        CustomRecorder {
+            frame,
+            commands,
+            pass,
+            queue,
+            recorded: 0,
+            has_raw: false,
+            misuse: None,
+            asked: AskedNames::default(),
+        }
     }
 
     /// The queue of the Plan that runs the pass: that for graphics, or that for compute if the pipeline says `queue: Any`.
@@ -165,13 +176,13 @@ impl<'f> CustomRecorder<'f> {
     /// An image of the pass, by the Plan's name or the shader's, for commands of the program's own.
     #[must_use]
     pub fn image(&self, name: &str) -> Option<CustomImage> {
-        CustomImage::of(self.frame, self.pass, name)
+        self.asked.note(name, CustomImage::of(self.frame, self.pass, name))
     }
 
     /// A buffer of the pass, by the Plan's name or the shader's, for commands of the program's own.
     #[must_use]
     pub fn buffer(&self, name: &str) -> Option<vk::Buffer> {
-        named_buffer(self.frame, self.pass, name)
+        self.asked.note(name, named_buffer(self.frame, self.pass, name))
     }
 
     /// The command buffer, recording outside of rendering scopes, for commands of the program's own. To record is unsafe:
@@ -182,6 +193,21 @@ impl<'f> CustomRecorder<'f> {
         self.recorded += 1;
         self.has_raw = true;
         self.commands
+    }
+
+    /// Executes secondary command buffers, one after the other: with the inheritance info of none, since no rendering scope and no query is
+    /// open. They were recorded on any thread, during the frame or before it.
+    ///
+    /// # Safety
+    /// They are of this device and of [`CustomRecorder::queue_family`], recorded and ended, and touch what the pass names, as the Plan says,
+    /// and the program's own resources. No other thread uses them or their pools meanwhile, and they live until the frame was waited for.
+    pub unsafe fn execute(&mut self, secondary: &[vk::CommandBuffer]) {
+        if secondary.is_empty() {
+            return;
+        }
+        let commands = self.raw();
+        // SAFETY: the command buffer is being recorded outside a scope, and the caller's word.
+        unsafe { self.frame.gpu.raw.cmd_execute_commands(commands, secondary) };
     }
 
     /// The image or buffer that the pass names by this name, for these accesses in one stage; a misuse if there is none.
@@ -250,6 +276,11 @@ impl<'f> CustomRecorder<'f> {
 
     fn misused(&mut self, what: impl FnOnce() -> String) {
         self.misuse.get_or_insert_with(what);
+    }
+
+    /// The images and buffers of the Plan that were asked for, and that the pass doesn't name.
+    pub(super) fn asked(&self) -> Vec<String> {
+        self.asked.of(self.frame.plan)
     }
 
     /// How many commands were recorded, or the first misuse. To record nothing is one where the pass writes: those who read

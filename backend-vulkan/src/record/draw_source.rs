@@ -3,6 +3,7 @@
 use super::custom::CustomRecorder;
 use super::dispatch::DispatchRecorder;
 use super::recorder::Recorder;
+use super::secondary::SecondaryRecorder;
 use crate::base::Error;
 use framewright_graph::frame::Draw;
 
@@ -33,6 +34,25 @@ pub trait DrawSource {
         let (pass, shader) = (recorder.pass(), recorder.shader());
         let what =
             format!("nobody binds what `{shader}` reads of the draw source, which the compute pass `{pass}` asks for");
+        Err(Error::DrawSource { what })
+    }
+
+    /// Whether the draws of the custom pass that the pipeline knows as `callback`, and that stands within a rendering scope, come in secondary
+    /// command buffers: then [`DrawSource::secondary`] is called for it in place of [`DrawSource::record`]. It is asked several times in a
+    /// frame, and answers the same. Unless this is overridden: no.
+    fn has_secondary(&mut self, _callback: &str) -> bool {
+        false
+    }
+
+    /// Executes the secondary command buffers of the custom pass that the pipeline knows as `callback`, within its rendering scope. Returns
+    /// how many draws they hold, for the report.
+    ///
+    /// # Errors
+    /// Any error that keeps the source from drawing. Unless this is overridden, that it has none.
+    fn secondary(&mut self, callback: &str, recorder: &mut SecondaryRecorder<'_>) -> Result<u32, Error> {
+        let pass = recorder.pass();
+        let what =
+            format!("nobody has secondary command buffers of `{callback}`, which the custom pass `{pass}` asks for");
         Err(Error::DrawSource { what })
     }
 

@@ -4,6 +4,7 @@ use crate::base::convert;
 use crate::prepare::{DrawTarget, scissor, viewport};
 use ash::vk;
 use framewright_graph::frame::{Eye, EyeForm, Stereo};
+use framewright_graph::plan::{Pass, Plan};
 
 /// Where the picture of an eye lies in what a pass draws into.
 #[derive(Debug, Clone, Copy)]
@@ -17,6 +18,11 @@ pub struct EyeTarget {
     /// The layer of the attachments. With a view mask (`ScopeFormats::view_mask`) the device chooses it, and `gl_ViewIndex` is its number;
     /// without one, a vertex shader does so (`gl_Layer`).
     pub layer: u32,
+}
+
+/// The eye that a pass is drawn for, if it is drawn for one of two.
+pub(super) fn eye_of(plan: &Plan, pass: &Pass) -> Option<Eye> {
+    plan.views.get(pass.view?.0 as usize)?.eye.map(|of| of.eye)
 }
 
 impl EyeTarget {

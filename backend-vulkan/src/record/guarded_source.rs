@@ -4,6 +4,7 @@ use super::custom::CustomRecorder;
 use super::dispatch::DispatchRecorder;
 use super::draw_source::DrawSource;
 use super::recorder::Recorder;
+use super::secondary::SecondaryRecorder;
 use crate::base::Error;
 use framewright_graph::frame::Draw;
 use std::any::Any;
@@ -20,6 +21,16 @@ impl DrawSource for GuardedSource<'_> {
 
     fn dispatch(&mut self, recorder: &mut DispatchRecorder<'_>) -> Result<(), Error> {
         let recorded = catch_unwind(AssertUnwindSafe(|| self.0.dispatch(recorder)));
+        recorded.unwrap_or_else(|payload| Err(panicked(recorder.pass(), &*payload)))
+    }
+
+    fn has_secondary(&mut self, callback: &str) -> bool {
+        // One that panics here is called, and panics again or is told what it lacks.
+        catch_unwind(AssertUnwindSafe(|| self.0.has_secondary(callback))).unwrap_or(false)
+    }
+
+    fn secondary(&mut self, callback: &str, recorder: &mut SecondaryRecorder<'_>) -> Result<u32, Error> {
+        let recorded = catch_unwind(AssertUnwindSafe(|| self.0.secondary(callback, recorder)));
         recorded.unwrap_or_else(|payload| Err(panicked(recorder.pass(), &*payload)))
     }
 

@@ -1,9 +1,11 @@
 //! Recording of a prepared frame's commands.
 
+mod asked_names;
 mod bindings;
 mod bound_sets;
 mod breadcrumbs;
 mod canvas;
+mod contents;
 mod custom;
 mod custom_image;
 mod dispatch;
@@ -14,9 +16,11 @@ mod frame_params;
 mod frame_resources;
 mod guarded_source;
 mod observers;
+mod pass_watch;
 mod recorded_frame;
 mod recorder;
 mod scope;
+mod secondary;
 mod state;
 mod step;
 mod timing;
@@ -27,13 +31,15 @@ pub use dispatch::DispatchRecorder;
 pub use draw_source::DrawSource;
 pub use eye_target::EyeTarget;
 pub use recorder::{IndexType, Recorder};
+pub use secondary::SecondaryRecorder;
 pub use timing::{FrameReport, PassReport, StepReport};
 
 pub(crate) use breadcrumbs::Breadcrumbs;
+pub(crate) use contents::UntouchedTexels;
 pub(crate) use fragments::FragmentCounts;
 pub(crate) use guarded_source::GuardedSource;
 pub(crate) use observers::Observers;
+pub(crate) use pass_watch::PassWatch;
 pub(crate) use recorded_frame::RecordedFrame;
-pub(crate) use state::CommandState;
 pub(crate) use step::Recording;
 pub(crate) use timing::{Timing, report};

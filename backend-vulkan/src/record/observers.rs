@@ -2,8 +2,10 @@
 
 use super::breadcrumbs::Breadcrumbs;
 use super::fragments::FragmentCounts;
+use super::pass_watch::PassWatch;
 use super::timing::Timing;
 use crate::base::Error;
+use crate::prepare::Frame;
 use ash::vk;
 use framewright_graph::plan::Queue;
 
@@ -12,6 +14,7 @@ pub(crate) struct Observers {
     pub(crate) timing: Option<Timing>,
     pub(crate) fragments: Option<FragmentCounts>,
     pub(crate) breadcrumbs: Option<Breadcrumbs>,
+    pub(crate) watch: Option<PassWatch>,
 }
 
 impl Observers {
@@ -22,6 +25,9 @@ impl Observers {
         }
         if let Some(fragments) = &mut self.fragments {
             fragments.begin_frame();
+        }
+        if let Some(watch) = &mut self.watch {
+            watch.begin_frame();
         }
         self.breadcrumbs.as_mut().map_or(Ok(()), Breadcrumbs::begin_frame)
     }
@@ -40,6 +46,23 @@ impl Observers {
     pub(super) fn begin_step(&mut self, commands: vk::CommandBuffer, step: usize) {
         if let Some(breadcrumbs) = &self.breadcrumbs {
             breadcrumbs.begin_step(commands, step);
+        }
+    }
+
+    /// Begins the work of a step, whose barriers were recorded.
+    pub(super) fn begin_work(
+        &mut self,
+        frame: &Frame<'_>,
+        commands: vk::CommandBuffer,
+        step: usize,
+    ) -> Result<(), Error> {
+        self.watch.as_mut().map_or(Ok(()), |watch| watch.begin(frame, commands, step))
+    }
+
+    /// Ends the work of a step.
+    pub(super) fn end_work(&mut self, frame: &Frame<'_>, commands: vk::CommandBuffer) {
+        if let Some(watch) = &mut self.watch {
+            watch.end(frame, commands);
         }
     }
 

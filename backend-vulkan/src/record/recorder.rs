@@ -1,9 +1,10 @@
 //! How a draw source records its draws.
 
+use super::asked_names::AskedNames;
 use super::bound_sets::BoundSets;
 use super::canvas::Canvas;
 use super::custom_image::{CustomImage, named_buffer};
-use super::eye_target::EyeTarget;
+use super::eye_target::{EyeTarget, eye_of};
 use super::frame_resources::HeldResources;
 use crate::base::numbers;
 use crate::gpu::{ScopeFormats, VertexBinding};
@@ -42,6 +43,7 @@ pub struct Recorder<'f> {
     /// Whether the pass was looked through for bindings that its draws lack, and nothing was misused.
     ready: bool,
     misuse: Option<String>,
+    asked: AskedNames,
 }
 
 impl<'f> Recorder<'f> {
@@ -55,7 +57,20 @@ impl<'f> Recorder<'f> {
     ) -> Recorder<'f> {
         let (pass, has_pipeline, misuse) = (&drawn.state, drawn.pipeline.is_some(), begun.err());
         let sets = BoundSets::new(canvas.gpu, vk::PipelineBindPoint::GRAPHICS, &pass.supplied, kept, frame.sets);
-        Recorder { canvas, sets, pass, has_pipeline, plan, frame, indices: None, culled: 0, ready: false, misuse }
+        let asked = AskedNames::default();
+        Recorder {
+            canvas,
+            sets,
+            pass,
+            has_pipeline,
+            plan,
+            frame,
+            indices: None,
+            culled: 0,
+            ready: false,
+            misuse,
+            asked,
+        }
     }
 
     /// The pass's name.
@@ -74,7 +89,7 @@ impl<'f> Recorder<'f> {
     /// drawn for, or what both share.
     #[must_use]
     pub fn eye(&self) -> Option<Eye> {
-        self.frame.plan.views.get(self.plan.view?.0 as usize)?.eye.map(|of| of.eye)
+        eye_of(self.frame.plan, self.plan)
     }
 
     /// The name of the pass's shader. For custom draws it says what is drawn; if there is no shader of that name then no
@@ -111,14 +126,14 @@ impl<'f> Recorder<'f> {
     /// each image that stands for the name: an image with a history is another one in the next frame.
     #[must_use]
     pub fn image(&self, name: &str) -> Option<CustomImage> {
-        CustomImage::of(self.frame, self.plan, name)
+        self.asked.note(name, CustomImage::of(self.frame, self.plan, name))
     }
 
     /// A buffer that the pass reads or writes, by the Plan's name or the shader's, for commands of the program's own. In a
     /// [custom pass](framewright_graph::frame::Draw::Custom) any command may read it: the barriers for the pass wait for all of them.
     #[must_use]
     pub fn buffer(&self, name: &str) -> Option<vk::Buffer> {
-        named_buffer(self.frame, self.plan, name)
+        self.asked.note(name, named_buffer(self.frame, self.plan, name))
     }
 
     /// A parameter that the pipeline gives the pass.
@@ -437,6 +452,11 @@ impl<'f> Recorder<'f> {
     pub(super) fn bound(self) -> Result<Canvas<'f>, String> {
         let missing = self.sets.missing().map(|missing| format!("a draw without {missing}"));
         self.misuse.or(missing).map_or(Ok(self.canvas), Err)
+    }
+
+    /// The images and buffers of the Plan that were asked for, and that the pass doesn't name.
+    pub(super) fn asked(&self) -> Vec<String> {
+        self.asked.of(self.frame.plan)
     }
 
     /// How many objects were left out, or the first misuse if there was any.

@@ -11,9 +11,16 @@ use crate::gpu::{Gpu, LocalReads};
 use crate::prepare::{CommandList, DrawCommand, DrawCounts, DrawnVertices, OwnDraw, ScopeCommand};
 use ash::vk;
 
-/// Begins a rendering scope.
-pub(super) fn begin(gpu: &Gpu, commands: vk::CommandBuffer, list: &CommandList, scope: &ScopeCommand) {
+/// Begins a rendering scope, or goes on with it.
+pub(super) fn begin(
+    gpu: &Gpu,
+    commands: vk::CommandBuffer,
+    list: &CommandList,
+    scope: &ScopeCommand,
+    flags: vk::RenderingFlags,
+) {
     let mut rendering = vk::RenderingInfo::default()
+        .flags(flags)
         .render_area(scope.extent.into())
         .layer_count(scope.layers)
         .view_mask(scope.view_mask)
@@ -38,6 +45,9 @@ impl Recording<'_> {
         draw: &DrawCommand,
     ) -> Result<Counts, Error> {
         let (gpu, list) = (self.frame.gpu, &self.prepared.list);
+        if let Some(counts) = self.secondary(commands, step, draw)? {
+            return Ok(counts);
+        }
         let (mut draws, mut culled) = (1, 0);
         self.state.begin_pass();
         if let Some(pipeline) = draw.pipeline {
@@ -78,6 +88,9 @@ impl Recording<'_> {
                 let kept = &mut self.recorded.kept;
                 let mut recorder = Recorder::new(canvas, kept, made, planned(), self.frame, begun);
                 let recorded = self.source.record(made.draw, &mut recorder)?;
+                if let Some(watch) = &mut self.observers.watch {
+                    watch.note_asked(planned(), recorder.asked());
+                }
                 match &draw.vertices {
                     DrawnVertices::Own(own) => recorder.bound().and_then(|mut canvas| draw_own(&mut canvas, own)),
                     DrawnVertices::FullScreen | DrawnVertices::Source => {

@@ -8,6 +8,7 @@ use super::draw_source::DrawSource;
 use super::frame_params;
 use super::observers::Observers;
 use super::recorded_frame::{Counts, RecordedFrame};
+use super::secondary::OpenScope;
 use super::state::CommandState;
 use crate::base::Error;
 use crate::commands::barrier_call;
@@ -24,9 +25,22 @@ pub(crate) struct Recording<'r> {
     pub(crate) recorded: &'r mut RecordedFrame,
     /// The state of the command buffer that is being recorded.
     pub(crate) state: CommandState,
+    /// The rendering scope that is being recorded.
+    pub(super) scope: Option<OpenScope<'r>>,
 }
 
-impl Recording<'_> {
+impl<'r> Recording<'r> {
+    /// The recording of a frame, in which nothing is recorded yet.
+    pub(crate) fn new(
+        frame: &'r Frame<'r>,
+        prepared: &'r PreparedPlan,
+        source: &'r mut dyn DrawSource,
+        observers: &'r mut Observers,
+        recorded: &'r mut RecordedFrame,
+    ) -> Recording<'r> {
+        Recording { frame, prepared, source, observers, recorded, state: CommandState::default(), scope: None }
+    }
+
     /// Begins the command buffer of a batch.
     pub(crate) fn begin_batch(&mut self, commands: vk::CommandBuffer, queue: Queue) {
         self.state.begin_commands();
@@ -57,25 +71,33 @@ impl Recording<'_> {
                 }
                 Command::FrameParams(params) => frame_params::write(gpu, commands, params, self.frame.clock),
                 Command::Transfer(transfer) => transfer.record(gpu, commands),
-                Command::BeginScope(scope) => super::scope::begin(gpu, commands, list, scope),
+                Command::BeginScope(scope) => {
+                    self.observers.begin_work(self.frame, commands, step)?;
+                    self.begin_scope(commands, step, scope);
+                }
                 Command::LocalBarrier => super::scope::local_barrier(gpu, commands),
                 Command::SeeAttachments(local) => super::scope::see_attachments(gpu, commands, local),
                 Command::Draw(draw) => {
                     let counts = self.draw(commands, step, draw)?;
                     self.end_pass(commands, counts);
                 }
-                // SAFETY: the scope was begun by a command before.
-                Command::EndScope => unsafe { gpu.raw.cmd_end_rendering(commands) },
+                Command::EndScope => {
+                    // SAFETY: the scope was begun by a command before.
+                    unsafe { gpu.raw.cmd_end_rendering(commands) };
+                    self.observers.end_work(self.frame, commands);
+                }
                 Command::Dispatch(dispatch) => {
                     self.dispatch(commands, step, dispatch)?;
                     self.end_pass(commands, Counts { draws: 1, culled: 0 });
                 }
                 Command::Custom => {
                     let planned = &self.frame.plan.steps[step];
+                    self.observers.begin_work(self.frame, commands, step)?;
                     for pass in planned.work.passes() {
                         let draws = self.custom(commands, pass, planned.queue)?;
                         self.end_pass(commands, Counts { draws, culled: 0 });
                     }
+                    self.observers.end_work(self.frame, commands);
                 }
             }
         }
@@ -104,6 +126,9 @@ impl Recording<'_> {
         self.state.lose_track();
         let mut recorder = CustomRecorder::new(self.frame, commands, pass, queue);
         self.source.custom(&pass.shader, &mut recorder)?;
+        if let Some(watch) = &mut self.observers.watch {
+            watch.note_asked(pass, recorder.asked());
+        }
         recorder.finish().map_err(|what| Error::Recording { pass: pass.name.to_string(), what })
     }
 

@@ -186,6 +186,17 @@ fn the_layer_refutes_a_wrong_declaration() {
         }
         let said = findings(&messages);
         assert!(said.iter().any(|it| it.id.contains("SYNC-HAZARD")), "{said:?}");
+
+        // The debug mode leads it back to what the pass declares.
+        let program = Program::new(&device);
+        let plan = planned(&device, &frame, &Options { readable: true, ..Options::default() });
+        let options = ExecutorOptions { check_uses: true, ..ExecutorOptions::default() };
+        let mut executor = Executor::new(&device, &plan, &mut library(SHADERS), &options).expect("an executor");
+        let mut record = Custom(|recorder: &mut CustomRecorder<'_>| program.store(recorder));
+        let said = executor.frame(&mut record).expect_err("it is a lie").to_string();
+        let declared = "pass `own` declares `mask` as VERTEX_SHADER, SHADER_STORAGE_WRITE, GENERAL, and the validation layer finds: ";
+        assert!(said.starts_with(declared), "{said}");
+        drop(executor);
     });
 }
 

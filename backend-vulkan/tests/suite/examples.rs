@@ -106,3 +106,18 @@ fn pf_8_the_example_of_an_exact_device_draws_the_same() {
     drop(device);
     assert_eq!(testing::findings(&messages), []);
 }
+
+#[path = "../../../examples/embedding/threads.rs"]
+mod threads;
+
+/// DO-8.
+#[test]
+fn do_8_the_example_of_threads_draws_a_bar_for_each() {
+    let Some(device) = render::device() else { return };
+    let picture = threads::draw(device).expect("drawn");
+    for (number, texel) in picture.bytes.as_chunks::<4>().0.iter().enumerate() {
+        let in_bar = number % 64 % 16 < 8;
+        assert_eq!(*texel, if in_bar { [255; 4] } else { [0, 0, 255, 255] }, "{number}");
+    }
+    render::silent(device).expect("silent");
+}

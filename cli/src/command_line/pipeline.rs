@@ -153,6 +153,7 @@ impl PlanningArguments {
         Options {
             alias: !self.no_alias,
             poison: self.poison,
+            readable: false,
             order: self.order,
             demote: self.naive != Some(Saving::Resolves),
             queues: !self.one_queue,

@@ -8,8 +8,9 @@ use framewright::vulkan::ash::vk;
 use framewright::vulkan::{Error, Executor};
 use framewright::{
     Change, CustomRecorder, DispatchRecorder, Draw, DrawKind, DrawList, DrawSource, Recorder, SceneDrawSource,
-    SemaphorePoint, Submission,
+    SecondaryRecorder, SemaphorePoint, Submission,
 };
+use std::collections::BTreeSet;
 use std::ffi::c_char;
 use std::ptr;
 use std::sync::Arc;
@@ -75,6 +76,7 @@ unsafe impl Structure for FramewrightSubmission {
 struct Source<'s> {
     scene: Option<&'s mut SceneDrawSource>,
     callback: Option<Callback>,
+    secondary: &'s BTreeSet<String>,
 }
 
 impl DrawSource for Source<'_> {
@@ -94,13 +96,21 @@ impl DrawSource for Source<'_> {
         }
     }
 
+    fn has_secondary(&mut self, custom: &str) -> bool {
+        self.callback.is_some() && self.secondary.contains(custom)
+    }
+
+    fn secondary(&mut self, custom: &str, recorder: &mut SecondaryRecorder<'_>) -> Result<u32, Error> {
+        match &self.callback {
+            Some(callback) => callback.secondary(custom, recorder),
+            None => Err(no_recorder(recorder.pass(), custom)),
+        }
+    }
+
     fn custom(&mut self, custom: &str, recorder: &mut CustomRecorder<'_>) -> Result<(), Error> {
         match &self.callback {
             Some(callback) => callback.outside(custom, recorder),
-            None => {
-                let pass = recorder.pass();
-                Err(Error::DrawSource { what: format!("pass `{pass}` asks for `{custom}`, and no recorder was set") })
-            }
+            None => Err(no_recorder(recorder.pass(), custom)),
         }
     }
 }
@@ -117,6 +127,10 @@ fn kind(draw: Draw) -> Option<FramewrightDraw> {
         DrawKind::Sky => FramewrightDraw::Sky,
         DrawKind::FullScreen | DrawKind::Vertices | DrawKind::Compute => return None,
     })
+}
+
+fn no_recorder(pass: &str, custom: &str) -> Error {
+    Error::DrawSource { what: format!("pass `{pass}` asks for `{custom}`, and no recorder was set") }
 }
 
 fn no_scene(pass: &str) -> Error {
@@ -178,8 +192,8 @@ impl State {
         draw: impl FnOnce(&mut Executor, &mut dyn DrawSource) -> Result<u64, Error>,
     ) -> Result<u64, Problem> {
         self.prepare()?;
-        let State { renderer, objects, callback, .. } = self;
-        let mut source = Source { scene: objects.as_mut(), callback: *callback };
+        let State { renderer, objects, callback, secondary, .. } = self;
+        let mut source = Source { scene: objects.as_mut(), callback: *callback, secondary };
         Ok(draw(renderer.executor_mut()?, &mut source)?)
     }
 }

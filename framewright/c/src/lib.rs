@@ -48,7 +48,8 @@ pub use last_error::{FramewrightMistake, framewright_last_error, framewright_las
 pub use passes::{
     FramewrightDraw, FramewrightEye, FramewrightEyeForm, FramewrightEyeTarget, FramewrightFormats, FramewrightPass,
     FramewrightPassImage, FramewrightRecord, FramewrightResources, framewright_pass_buffer, framewright_pass_draw,
-    framewright_pass_image,
+    framewright_pass_image, framewright_renderer_inheritance, framewright_renderer_set_recorder,
+    framewright_renderer_set_secondary,
 };
 pub use renderer::{
     FramewrightChange, FramewrightFacts, FramewrightFeature, FramewrightRenderer, FramewrightRendererOptions,
@@ -56,8 +57,7 @@ pub use renderer::{
     framewright_renderer_files_changed, framewright_renderer_free, framewright_renderer_open,
     framewright_renderer_reload, framewright_renderer_set, framewright_renderer_set_extent,
     framewright_renderer_set_facts, framewright_renderer_set_output_format, framewright_renderer_set_preset,
-    framewright_renderer_set_recorder, framewright_renderer_set_rotation, framewright_renderer_set_scene,
-    framewright_renderer_set_stereo,
+    framewright_renderer_set_rotation, framewright_renderer_set_scene, framewright_renderer_set_stereo,
 };
 pub use scene::{FramewrightScene, framewright_scene_free, framewright_scene_load, framewright_scene_mistake};
 pub use sets::FramewrightSet;

@@ -2,11 +2,12 @@
 
 use crate::arguments::{output, reference, text};
 use crate::last_error::{self, call};
+use crate::renderer::{FramewrightRenderer, with};
 use crate::status::{FramewrightStatus, Problem};
 use framewright::graph::frame::{Eye, EyeForm, Stereo};
 use framewright::vulkan::Error;
 use framewright::vulkan::ash::vk;
-use framewright::{CustomImage, CustomRecorder, EyeTarget, Recorder, ScopeFormats};
+use framewright::{CustomImage, CustomRecorder, EyeTarget, Recorder, ScopeFormats, SecondaryRecorder};
 use std::cell::RefCell;
 use std::ffi::{c_char, c_void};
 use std::ops::Range;
@@ -141,6 +142,9 @@ pub struct FramewrightPass<'p> {
     pub eye_targets: [FramewrightEyeTarget; 2],
     /// Inside a scope, what pipelines of the program's must fit; NULL outside of one.
     pub formats: *const FramewrightFormats,
+    /// What secondary command buffers are begun with, beside `RENDER_PASS_CONTINUE`, for a pass that `framewright_renderer_set_secondary` says
+    /// has them: then `commands` takes `vkCmdExecuteCommands` and nothing else. NULL for other passes.
+    pub inheritance: *const vk::CommandBufferInheritanceRenderingInfo<'p>,
 }
 
 /// What a pass accesses.
@@ -150,8 +154,8 @@ pub struct FramewrightResources<'p>(&'p dyn PassResources);
 trait PassResources {
     fn image(&self, name: &str) -> Option<CustomImage>;
     fn buffer(&self, name: &str) -> Option<vk::Buffer>;
-    /// Draws vertices, if the pass stands inside a scope.
-    fn draw(&self, vertices: Range<u32>, instances: Range<u32>) -> bool;
+    /// Draws vertices; if that can't be, says why.
+    fn draw(&self, vertices: Range<u32>, instances: Range<u32>) -> Result<(), &'static str>;
 }
 
 impl PassResources for CustomRecorder<'_> {
@@ -163,8 +167,22 @@ impl PassResources for CustomRecorder<'_> {
         CustomRecorder::buffer(self, name)
     }
 
-    fn draw(&self, _: Range<u32>, _: Range<u32>) -> bool {
-        false
+    fn draw(&self, _: Range<u32>, _: Range<u32>) -> Result<(), &'static str> {
+        Err("the pass stands outside of rendering scopes")
+    }
+}
+
+impl PassResources for SecondaryRecorder<'_> {
+    fn image(&self, name: &str) -> Option<CustomImage> {
+        SecondaryRecorder::image(self, name)
+    }
+
+    fn buffer(&self, name: &str) -> Option<vk::Buffer> {
+        SecondaryRecorder::buffer(self, name)
+    }
+
+    fn draw(&self, _: Range<u32>, _: Range<u32>) -> Result<(), &'static str> {
+        Err("the draws of the pass come in secondary command buffers")
     }
 }
 
@@ -180,12 +198,12 @@ impl PassResources for Inside<'_, '_> {
         self.0.borrow().buffer(name)
     }
 
-    fn draw(&self, vertices: Range<u32>, instances: Range<u32>) -> bool {
+    fn draw(&self, vertices: Range<u32>, instances: Range<u32>) -> Result<(), &'static str> {
         let mut recorder = self.0.borrow_mut();
         // The program may have set viewport and scissor since.
         let _ = recorder.raw();
         recorder.draw(vertices, instances);
-        true
+        Ok(())
     }
 }
 
@@ -230,9 +248,7 @@ impl Callback {
         let ([width, height], frame) = (recorder.target_extent(), recorder.frame());
         let (queue_family, own_eye) = (recorder.queue_family(), eye(recorder.eye()));
         let (both_eyes, eye_form) = both(recorder.both_eyes());
-        let eye_targets = recorder.eye_targets().map_or(NO_EYES, |eyes| {
-            eyes.map(|EyeTarget { viewport, scissor, layer, .. }| FramewrightEyeTarget { viewport, scissor, layer })
-        });
+        let eye_targets = targets(recorder.eye_targets());
         let formats = recorder.formats().clone();
         let formats = FramewrightFormats::of(&formats);
         let commands = recorder.raw();
@@ -254,8 +270,38 @@ impl Callback {
             eye_form,
             eye_targets,
             formats: &raw const formats,
+            inheritance: ptr::null(),
         };
         self.call(&name, &custom, pass).map(|()| 1)
+    }
+
+    /// Has the program execute its secondary command buffers inside a rendering scope.
+    pub(crate) fn secondary(&self, custom: &str, recorder: &mut SecondaryRecorder<'_>) -> Result<u32, Error> {
+        let commands = recorder.raw();
+        let ([width, height], frame) = (recorder.target_extent(), recorder.frame());
+        let (queue_family, inheritance) = (recorder.queue_family(), recorder.inheritance());
+        let (both_eyes, eye_form) = both(recorder.both_eyes());
+        let formats = FramewrightFormats::of(recorder.formats());
+        let resources = FramewrightResources(&*recorder);
+        let pass = |name, custom| FramewrightPass {
+            name,
+            custom,
+            commands,
+            in_scope: 1,
+            width,
+            height,
+            frame,
+            resources: &raw const resources,
+            queue_family,
+            draw: FramewrightDraw::Custom,
+            eye: eye(recorder.eye()),
+            both_eyes,
+            eye_form,
+            eye_targets: targets(recorder.eye_targets()),
+            formats: &raw const formats,
+            inheritance: &raw const inheritance,
+        };
+        self.call(recorder.pass(), custom, pass).map(|()| 1)
     }
 
     /// Has the program record what stands outside of rendering scopes.
@@ -281,6 +327,7 @@ impl Callback {
             eye_form,
             eye_targets: NO_EYES,
             formats: ptr::null(),
+            inheritance: ptr::null(),
         };
         self.call(recorder.pass(), custom, pass)
     }
@@ -308,6 +355,12 @@ const NO_EYES: [FramewrightEyeTarget; 2] = [FramewrightEyeTarget {
     scissor: vk::Rect2D { offset: vk::Offset2D { x: 0, y: 0 }, extent: vk::Extent2D { width: 0, height: 0 } },
     layer: 0,
 }; 2];
+
+fn targets(eyes: Option<[EyeTarget; 2]>) -> [FramewrightEyeTarget; 2] {
+    eyes.map_or(NO_EYES, |eyes| {
+        eyes.map(|EyeTarget { viewport, scissor, layer, .. }| FramewrightEyeTarget { viewport, scissor, layer })
+    })
+}
 
 fn eye(eye: Option<Eye>) -> FramewrightEye {
     match eye {
@@ -399,6 +452,64 @@ pub unsafe extern "C" fn framewright_pass_draw(
     call(|| unsafe {
         let vertices = range(first_vertex, vertex_count, "vertices")?;
         let drawn = resources(pass)?.draw(vertices, range(first_instance, instance_count, "instances")?);
-        drawn.then_some(()).ok_or_else(|| Problem::Misuse("the pass stands outside of rendering scopes".to_owned()))
+        drawn.map_err(|why| Problem::Misuse(why.to_owned()))
     })
+}
+
+/// Has `record` record custom passes, and draws of objects and sky where no scene was set, and gives it `context`; NULL: nobody does.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_set_recorder(
+    renderer: *mut FramewrightRenderer,
+    record: FramewrightRecord,
+    context: *mut c_void,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            state.callback = record.map(|record| Callback { record, context });
+            Ok(())
+        })
+    }
+}
+
+/// Says whether the draws of the custom passes that the pipeline calls `custom`, inside rendering scopes, come in secondary command buffers,
+/// which threads of the program record: 0, as at first, or 1. Custom passes outside of scopes execute such ones without a word.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_set_secondary(
+    renderer: *mut FramewrightRenderer,
+    custom: *const c_char,
+    has: u32,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            let custom = text(custom, "custom")?;
+            match has {
+                0 => state.secondary.remove(custom),
+                _ => state.secondary.insert(custom.to_owned()),
+            };
+            Ok(())
+        })
+    }
+}
+
+/// Tells what secondary command buffers of the pass of this name are begun with, before the frame: as `inheritance` of the pass. It begins
+/// with a plan, as a frame does. The formats that it leads to live until this function is called again for the renderer, or it is freed.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_inheritance(
+    renderer: *mut FramewrightRenderer,
+    pass: *const c_char,
+    inheritance: *mut vk::CommandBufferInheritanceRenderingInfo<'_>,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            let pass = text(pass, "pass")?;
+            let formats = state.executor()?.formats(pass);
+            let none = || Problem::Misuse(format!("no rendering scope has a pass `{pass}`"));
+            let kept = state.inherited.insert(Box::new(formats.ok_or_else(none)?));
+            // Its formats lie on the heap, where they stay until others take their place.
+            output(inheritance.cast(), "inheritance", kept.inheritance())
+        })
+    }
 }

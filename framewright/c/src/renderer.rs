@@ -5,7 +5,7 @@ use crate::arguments::{
 };
 use crate::device::FramewrightDevice;
 use crate::last_error::{self, call};
-use crate::passes::{Callback, FramewrightRecord};
+use crate::passes::Callback;
 use crate::scene::FramewrightScene;
 use crate::sets::{FramewrightSet, program_sets};
 use crate::status::{FramewrightStatus, Problem};
@@ -15,6 +15,7 @@ use framewright::vulkan::ash::vk;
 use framewright::{
     Facts, RawSet, Renderer, RendererOptions, Rotation, Scene, SceneDrawSource, ScopeFormats, Stereo, Texels,
 };
+use std::collections::BTreeSet;
 use std::ffi::{c_char, c_void};
 use std::sync::{Arc, Mutex, TryLockError};
 
@@ -46,6 +47,10 @@ pub(crate) struct State {
     pub(crate) objects: Option<SceneDrawSource>,
     /// What records custom passes.
     pub(crate) callback: Option<Callback>,
+    /// The custom passes inside scopes whose draws come in secondary command buffers.
+    pub(crate) secondary: BTreeSet<String>,
+    /// What was told last of how those are begun.
+    pub(crate) inherited: Option<Box<ScopeFormats>>,
     /// The most that changed since the program asked.
     pub(crate) unreported: FramewrightChange,
     /// What was read last.
@@ -77,6 +82,9 @@ pub struct FramewrightRendererOptions {
     pub shader_compilers: FramewrightNames,
     /// The program hands addresses of buffers out in its sets, and vouches for the shaders that follow them. 0 is false.
     pub addresses: u32,
+    /// Whether what custom passes do is held against what the pipeline says of them, to look for mistakes: 1. A broken promise fails the call
+    /// that waits for the frame, or for room for another one, and the frame is done all the same. docs/embedding.md has more.
+    pub check_uses: u32,
 }
 
 // SAFETY: it begins with its size, and has integers and pointers alone.
@@ -92,6 +100,7 @@ unsafe impl Structure for FramewrightRendererOptions {
         set_count: 0,
         shader_compilers: FramewrightNames::NONE,
         addresses: 0,
+        check_uses: 0,
     };
 }
 
@@ -224,6 +233,7 @@ pub unsafe extern "C" fn framewright_renderer_open(
                 return Err(Problem::Misuse(what));
             }
         };
+        options.executor.check_uses = given.check_uses != 0;
         options.helper.clone_from(&device.helper);
         // SAFETY: the caller's word.
         unsafe {
@@ -245,6 +255,8 @@ pub unsafe extern "C" fn framewright_renderer_open(
             planned_scene: None,
             objects: None,
             callback: None,
+            secondary: BTreeSet::new(),
+            inherited: None,
             unreported: FramewrightChange::Nothing,
             texels: None,
             formats: None,
@@ -316,22 +328,6 @@ pub unsafe extern "C" fn framewright_renderer_set_scene(
         with(renderer, |state| {
             state.renderer.set_facts(scene.as_ref().map(|scene| scene.facts()));
             state.scene = scene;
-            Ok(())
-        })
-    }
-}
-
-/// Has `record` record custom passes, and draws of objects and sky where no scene was set, and gives it `context`; NULL: nobody does.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn framewright_renderer_set_recorder(
-    renderer: *mut FramewrightRenderer,
-    record: FramewrightRecord,
-    context: *mut c_void,
-) -> FramewrightStatus {
-    // SAFETY: the caller's word.
-    unsafe {
-        with(renderer, |state| {
-            state.callback = record.map(|record| Callback { record, context });
             Ok(())
         })
     }

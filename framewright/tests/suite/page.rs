@@ -14,6 +14,7 @@ fn the_page_on_embedding_holds_the_examples() {
         "embedding/settings.rs",
         "embedding/imports.rs",
         "embedding/moving.rs",
+        "embedding/threads.rs",
         "embedding/exact_device.rs",
     ] {
         let example = format!("examples/{example}");
@@ -64,5 +65,55 @@ fn the_example_of_settings_draws_what_it_says() {
     let light = |at: usize| pictures[at].bytes.iter().map(|byte| u64::from(*byte)).sum::<u64>();
     assert!(light(1) > light(0), "{} and {}", light(0), light(1));
     assert_eq!(pictures[2].extent[..2], [32, 32]);
+    render::silent(device).expect("silent");
+}
+
+/// Draws, and asks in a custom pass for what the pass doesn't name.
+struct Curious;
+
+impl framewright::DrawSource for Curious {
+    fn record(
+        &mut self,
+        _: framewright::Draw,
+        _: &mut framewright::Recorder<'_>,
+    ) -> Result<u32, framewright::vulkan::Error> {
+        Ok(0)
+    }
+
+    fn custom(
+        &mut self,
+        _: &str,
+        recorder: &mut framewright::CustomRecorder<'_>,
+    ) -> Result<(), framewright::vulkan::Error> {
+        assert!(recorder.image("screen").is_none());
+        recorder.fill("list", framewright::graph::vulkan::FillValue::Bits([0; 4]));
+        Ok(())
+    }
+}
+
+/// The renderer compiles for the check, and the place of the pass is told (DO-8).
+#[test]
+fn do_8_a_broken_promise_is_told_with_the_place_of_the_pass() {
+    const PIPELINE: &str = r#"Pipeline(
+    version: 1,
+    images: [(name: "drawn", format: Output, size: Output), (name: "screen", format: Output, size: Output)],
+    buffers: [(name: "list", bytes: 16)],
+    passes: [
+        (name: "clear", fill: (to: "drawn", value: 0)),
+        (name: "own", custom: "own", writes: ["list"]),
+        (name: "show", draw: FullScreen("copy"), sample: {"source": "drawn"}, color: ["screen"]),
+    ],
+    outputs: ["screen", "list"],
+)"#;
+    let Some(device) = render::device() else { return };
+    for check_uses in [false, true] {
+        let mut options = framewright::RendererOptions::default();
+        options.executor.check_uses = check_uses;
+        let mut renderer = framewright::Renderer::carried(device, "own.ron", PIPELINE, options).expect("a renderer");
+        renderer.set_extent([16, 16]).expect("a size");
+        let drawn = renderer.frame(&mut Curious).map(drop).map_err(|error| error.to_string());
+        let told = "pass `own` (own.ron:7:16) doesn't name `screen`, and the program asked the recorder for it";
+        assert_eq!(drawn, if check_uses { Err(told.to_owned()) } else { Ok(()) });
+    }
     render::silent(device).expect("silent");
 }

@@ -8,6 +8,9 @@ pub struct Options {
     /// Whether images and buffers can be filled with poison where what they held is given up: adds `TRANSFER_DST`, and leaves no image
     /// `TRANSIENT_ATTACHMENT`, which excludes it.
     pub poison: bool,
+    /// Whether images and buffers that live within the frame can be read and written between steps, as an executor does that holds custom
+    /// passes against what they name: adds `TRANSFER_SRC` and `TRANSFER_DST`, and leaves no image `TRANSIENT_ATTACHMENT`.
+    pub readable: bool,
     /// The order of execution.
     pub order: Order,
     /// Whether full-screen draws that gain nothing from several samples move to single-sampled images.
@@ -32,6 +35,6 @@ pub enum Order {
 
 impl Default for Options {
     fn default() -> Options {
-        Options { alias: true, poison: false, order: Order::Default, demote: true, queues: true }
+        Options { alias: true, poison: false, readable: false, order: Order::Default, demote: true, queues: true }
     }
 }

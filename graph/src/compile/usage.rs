@@ -53,31 +53,39 @@ fn usage(
             if let Some(states) = &timeline.states[at as usize] {
                 usage |= states.before.layout.usage() | states.after.layout.usage();
             }
-            (usage | of_image(usage, resource.memory, image.mips, options.poison, stays_in_scope)).bits()
+            (usage | of_image(usage, resource.memory, image.mips, options, stays_in_scope)).bits()
         }
-        Kind::Buffer(_) => (BufferUsage::from_bits_truncate(bits) | of_buffer(resource.memory, options.poison)).bits(),
+        Kind::Buffer(_) => (BufferUsage::from_bits_truncate(bits) | of_buffer(resource.memory, options)).bits(),
     }
 }
 
 /// The usage that follows from the lifetime of an image, which has `usage` already.
-fn of_image(usage: Usage, memory: MemorySource, mips: u32, poison: bool, stays_in_scope: impl Fn() -> bool) -> Usage {
+fn of_image(
+    usage: Usage,
+    memory: MemorySource,
+    mips: u32,
+    options: &Options,
+    stays_in_scope: impl Fn() -> bool,
+) -> Usage {
     let attachments_only = Usage::COLOR_ATTACHMENT | Usage::DEPTH_STENCIL_ATTACHMENT | Usage::INPUT_ATTACHMENT;
     match memory {
-        MemorySource::Transient if poison => Usage::TRANSFER_DST,
+        MemorySource::Transient if options.readable => Usage::TRANSFER_SRC | Usage::TRANSFER_DST,
+        MemorySource::Transient if options.poison => Usage::TRANSFER_DST,
         MemorySource::Transient if attachments_only.contains(usage) && stays_in_scope() => Usage::TRANSIENT_ATTACHMENT,
         MemorySource::Transient => Usage::empty(),
         // A file is copied into it, and mip levels are made one from the other.
         MemorySource::Persistent { initial: None, .. } if mips == 1 => Usage::TRANSFER_DST,
         MemorySource::Persistent { .. } | MemorySource::Imported { .. } => Usage::TRANSFER_SRC | Usage::TRANSFER_DST,
-        MemorySource::Output if poison => Usage::TRANSFER_SRC | Usage::TRANSFER_DST,
+        MemorySource::Output if options.poison => Usage::TRANSFER_SRC | Usage::TRANSFER_DST,
         MemorySource::Output => Usage::TRANSFER_SRC,
     }
 }
 
 /// The usage that follows from the lifetime of a buffer.
-fn of_buffer(memory: MemorySource, poison: bool) -> BufferUsage {
+fn of_buffer(memory: MemorySource, options: &Options) -> BufferUsage {
     match memory {
-        MemorySource::Transient if poison => BufferUsage::TRANSFER_DST,
+        MemorySource::Transient if options.readable => BufferUsage::TRANSFER_SRC | BufferUsage::TRANSFER_DST,
+        MemorySource::Transient if options.poison => BufferUsage::TRANSFER_DST,
         MemorySource::Transient => BufferUsage::empty(),
         MemorySource::Persistent { .. } | MemorySource::Imported { .. } => {
             BufferUsage::TRANSFER_SRC | BufferUsage::TRANSFER_DST

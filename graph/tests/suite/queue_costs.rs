@@ -12,7 +12,8 @@ use std::sync::Arc;
 
 const KIB: u64 = 1 << 10;
 const MIB: u64 = 1 << 20;
-const OPTIONS: Options = Options { alias: true, poison: false, order: Order::File, demote: true, queues: true };
+const OPTIONS: Options =
+    Options { alias: true, poison: false, readable: false, order: Order::File, demote: true, queues: true };
 
 /// A device with all queues, on which a wait costs this much.
 fn with_wait(wait_bytes: u64) -> Profile {

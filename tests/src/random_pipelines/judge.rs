@@ -114,10 +114,10 @@ pub fn frames(pipeline: &Pipeline) -> u32 {
     each.max().unwrap_or(2)
 }
 
-/// How a pipeline is compiled: with poison, so that a pass that reads memory of another image shows it.
+/// How a pipeline is compiled: with poison, so that a pass that reads memory of another image shows it. Every fourth one is `readable`.
 #[must_use]
 pub fn options(order: Order, seed: u64) -> Options {
-    Options { alias: true, poison: true, order, demote: seed & 1 == 0, queues: true }
+    Options { alias: true, poison: true, readable: seed & 3 == 2, order, demote: seed & 1 == 0, queues: true }
 }
 
 impl Judge {
@@ -164,7 +164,7 @@ impl Judge {
         if let Some(spoil) = self.spoil {
             spoil.spoil(&mut plan);
         }
-        let outcome = self.execute(pipeline, &plan, expected);
+        let outcome = self.execute(pipeline, &plan, expected, options.readable);
         // The layer's findings explain more than the differences that follow from them.
         let all = self.device.messages().list();
         let new: Vec<&Message> = all.iter().filter(|message| message.is_finding()).skip(self.findings).collect();
@@ -251,13 +251,19 @@ impl Judge {
         Ok(())
     }
 
-    fn execute(&mut self, pipeline: &Pipeline, plan: &Plan, expected: &[State]) -> Result<(), Fault> {
+    /// `check_uses`: whether custom passes, all of which are honest, are held against what they declare.
+    fn execute(&mut self, pipeline: &Pipeline, plan: &Plan, expected: &[State], check_uses: bool) -> Result<(), Fault> {
         let broken = |error: Error| Fault::NotExecuted(error.to_string());
         // Many frames leave their traces in the last; some are looked at one by one.
         let flight = 1 + (pipeline.passes.len() % 3) as u32;
         let timestamps = flight > 1;
-        let options =
-            ExecutorOptions { poison: true, frames_in_flight: flight, timestamps, ..ExecutorOptions::default() };
+        let options = ExecutorOptions {
+            poison: true,
+            check_uses,
+            frames_in_flight: flight,
+            timestamps,
+            ..ExecutorOptions::default()
+        };
         let mut executor = Executor::new(&self.device, plan, &mut self.shaders, &options).map_err(broken)?;
         for (number, state) in (0..).zip(expected) {
             hand_in(pipeline, plan, &mut executor, number).map_err(broken)?;

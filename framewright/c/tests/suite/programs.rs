@@ -187,6 +187,27 @@ fn do_12_a_program_in_c_records_for_both_eyes_at_once() {
     println!("{said}");
 }
 
+/// The layer is on: it would print what it finds (DO-8).
+#[test]
+fn do_8_threads_of_a_program_in_c_draw_within_a_scope() {
+    let Some(program) = program("framewright/c/tests/programs/threads.c") else { return };
+    assert_eq!(succeeded(&program.run(&[], &VALIDATION)), "");
+    let drawn = picture(&program.path("picture.ppm"));
+    for (number, texel) in drawn.chunks(3).enumerate() {
+        let x = number % EXTENT[0] as usize;
+        // Four threads have forty columns each; the pass before them has the rest.
+        let shade = [[255, 0, 0], [0, 255, 0], [255, 255, 0], [255, 255, 255]].get(x / 40);
+        assert_eq!(texel, shade.unwrap_or(&[0, 0, 255]), "{x}");
+    }
+}
+
+/// A lie is told with the place of the pass; what it spoilt is mended (DO-8).
+#[test]
+fn do_8_lies_of_a_program_in_c_are_told() {
+    let Some(program) = program("framewright/c/tests/programs/lies.c") else { return };
+    succeeded(&program.run(&[], &[]));
+}
+
 /// The layer is on: it would print what it finds (DO-5).
 #[test]
 fn a_program_in_c_binds_a_set_of_its_own() {

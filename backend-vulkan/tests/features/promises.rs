@@ -1,0 +1,311 @@
+//! A debug mode holds what custom passes do against what they declare (DO-8): each kind of lie is told, with the pass and what it declares,
+//! and an honest program is left in peace.
+
+use crate::frames::{
+    Custom, Small, Uses, copy, draw, library, on_each_driver, on_each_driver_with, planned, texels, transfer, words,
+};
+use ash::vk;
+use framewright_graph::compile::Options;
+use framewright_graph::frame::{DeclaredUse, Draw, Frame, Resource, Work};
+use framewright_graph::vulkan::{Accesses, FillValue, Format, Layout, Stages, State, Subresources};
+use framewright_vulkan::{BrokenPromise, CustomRecorder, Device, Error, Executor, ExecutorOptions};
+use std::cell::Cell;
+
+const WHOLE: Subresources = Subresources::WHOLE;
+
+const SHADERS: &[(&str, &str)] = &[(
+    "show.frag",
+    "#version 460
+    layout(set = 0, binding = 0) uniform usampler2D source;
+    layout(location = 0) out uint color;
+    void main() { color = texelFetch(source, ivec2(gl_FragCoord.xy), 0).r; }",
+)];
+
+/// What the pass `own` of [`frame`] does beside its work, which is to copy `seed` to `list`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Lie {
+    /// Nothing.
+    None,
+    /// Fills the buffer that it only reads.
+    WritesWhatItReads,
+    /// Clears an image that it doesn't name.
+    WritesAnother,
+    /// Copies an image that it doesn't name to what it writes.
+    ReadsAnother,
+    /// Asks for an image that it doesn't name.
+    Asks,
+}
+
+/// `keep` reads the image `other`, and so gets hold of it; `own` copies `seed` to `list`; `show` shows `other`.
+fn frame() -> Frame {
+    let mut small = Small::default();
+    let [seed, list, last] = ["seed", "list", "last"].map(|name| small.buffer(name, 8));
+    let [other, shown] = ["other", "shown"].map(|name| small.image(name, Format::R32_UINT, [4, 2]));
+    let [from, to, kept] = [seed, list, last].map(Resource::Buffer);
+    let four = FillValue::Bits([4, 0, 0, 0]);
+    small.pass(transfer("first", Work::Fill { value: four }, &[(from, WHOLE, true)]));
+    small.pass(transfer(
+        "paint",
+        Work::Fill { value: FillValue::Bits([9, 0, 0, 0]) },
+        &[(Resource::Image(other), WHOLE, true)],
+    ));
+    let custom = |name: &str, sides: &[(Resource, Subresources, bool)]| {
+        transfer(name, Work::Custom { callback: name.into() }, sides)
+    };
+    let declared =
+        |resource, accesses, layout| DeclaredUse::new(resource, State { stages: Stages::COPY, accesses, layout });
+    let scratch = Resource::Buffer(small.buffer("scratch", 8));
+    let mut keep = custom("keep", &[(Resource::Image(other), WHOLE, false), (scratch, WHOLE, true)]);
+    keep.uses = vec![
+        declared(Resource::Image(other), Accesses::TRANSFER_READ, Layout::General),
+        declared(scratch, Accesses::TRANSFER_WRITE, Layout::Undefined),
+    ];
+    small.pass(keep);
+    let mut own = custom("own", &[(from, WHOLE, false), (scratch, WHOLE, false), (to, WHOLE, true)]);
+    own.uses = vec![
+        declared(from, Accesses::TRANSFER_READ, Layout::Undefined),
+        declared(scratch, Accesses::TRANSFER_READ, Layout::Undefined),
+        declared(to, Accesses::TRANSFER_WRITE, Layout::Undefined),
+    ];
+    small.pass(own);
+    small.pass(draw("show", Draw::FullScreen).samples("source", other, WHOLE).draws(shown, WHOLE, None));
+    small.pass(copy("take", (to, WHOLE), (kept, WHOLE)));
+    small.image_output(shown);
+    small.buffer_output(last);
+    small.frame
+}
+
+/// What two frames of a program leave, and the error of the second.
+fn drawn(device: &Device, lie: Lie, check_uses: bool) -> (Result<(), Error>, Vec<u32>, Vec<u32>) {
+    let plan = planned(device, &frame(), &Options { readable: check_uses, ..Options::default() });
+    let options = ExecutorOptions { check_uses, ..ExecutorOptions::default() };
+    let mut executor = Executor::new(device, &plan, &mut library(SHADERS), &options).expect("an executor");
+    let kept = Cell::new(None);
+    let mut record =
+        Custom(|recorder: &mut CustomRecorder<'_>| {
+            if recorder.pass() == "keep" {
+                kept.set(recorder.image("other"));
+                return recorder.copy("other", "scratch");
+            }
+            recorder.copy("seed", "list");
+            let (raw, seed, list) = (device.raw(), recorder.buffer("seed"), recorder.buffer("list"));
+            let (other, seed, list) = (kept.get().expect("kept"), seed.expect("named"), list.expect("named"));
+            let layers = vk::ImageSubresourceLayers {
+                aspect_mask: vk::ImageAspectFlags::COLOR,
+                layer_count: 1,
+                ..Default::default()
+            };
+            let range = vk::ImageSubresourceRange {
+                aspect_mask: vk::ImageAspectFlags::COLOR,
+                level_count: 1,
+                layer_count: 1,
+                ..Default::default()
+            };
+            let all = [vk::MemoryBarrier::default()
+                .src_access_mask(vk::AccessFlags::MEMORY_WRITE)
+                .dst_access_mask(vk::AccessFlags::MEMORY_WRITE)];
+            let commands = recorder.raw();
+            // SAFETY: the images and buffers live. These are lies, which a software driver forgives.
+            unsafe {
+                let stage = vk::PipelineStageFlags::ALL_COMMANDS;
+                raw.cmd_pipeline_barrier(commands, stage, stage, vk::DependencyFlags::empty(), &all, &[], &[]);
+                match lie {
+                    Lie::None => {}
+                    Lie::WritesWhatItReads => raw.cmd_fill_buffer(commands, seed, 8, 4, 77),
+                    Lie::WritesAnother => {
+                        let three = vk::ClearColorValue { uint32: [3; 4] };
+                        raw.cmd_clear_color_image(commands, other.raw, other.layout, &three, &[range]);
+                    }
+                    Lie::ReadsAnother => {
+                        let region = vk::BufferImageCopy::default()
+                            .image_subresource(layers)
+                            .image_extent(vk::Extent3D { width: 4, height: 2, depth: 1 });
+                        raw.cmd_copy_image_to_buffer(commands, other.raw, other.layout, list, &[region]);
+                    }
+                    Lie::Asks => assert!(recorder.image("other").is_none()),
+                }
+            }
+        });
+    executor.frame(&mut record).map(drop).unwrap_or_else(|error| assert!(lie != Lie::None, "{error}"));
+    let second = executor.frame(&mut record).map(drop);
+    (second, texels(&mut executor, "shown", 0), words(&mut executor, "last"))
+}
+
+/// What is told of the second frame of a program.
+fn told(device: &Device, lie: Lie) -> Vec<BrokenPromise> {
+    match drawn(device, lie, true).0 {
+        Ok(()) => Vec::new(),
+        Err(Error::BrokenPromises { promises }) => promises,
+        Err(error) => panic!("{error}"),
+    }
+}
+
+#[test]
+fn do_8_an_honest_program_is_left_in_peace() {
+    on_each_driver(|device| {
+        for check_uses in [false, true] {
+            let (done, shown, last) = drawn(device, Lie::None, check_uses);
+            done.expect("nothing is wrong");
+            assert_eq!((shown, last), (vec![9; 8], vec![4; 8]), "{check_uses}");
+        }
+    });
+}
+
+#[test]
+fn do_8_what_a_pass_writes_and_does_not_declare_is_told() {
+    on_each_driver_with(|device| {
+        let said: Vec<String> = told(&device, Lie::WritesWhatItReads).iter().map(ToString::to_string).collect();
+        let wanted = "pass `own` declares `seed` as COPY, TRANSFER_READ, and 1 of 32 bytes are others after it, the first is byte 8";
+        assert!(said.iter().any(|it| it == wanted), "{said:?}");
+
+        let said: Vec<String> = told(&device, Lie::WritesAnother).iter().map(ToString::to_string).collect();
+        let wanted = "pass `own` doesn't name `other`, and 32 of 32 bytes of mip 0, layer 0 are others after it, the first is byte 0";
+        assert!(said.iter().any(|it| it == wanted), "{said:?}");
+        // It is given back what it held: the rest of the frame is as the pipeline says.
+        assert_eq!(drawn(&device, Lie::WritesAnother, true).1, [9; 8]);
+        assert_eq!(drawn(&device, Lie::WritesAnother, false).1, [3; 8]);
+    });
+}
+
+#[test]
+fn do_8_what_a_pass_reads_and_does_not_declare_is_garbage() {
+    on_each_driver_with(|device| {
+        assert_eq!(drawn(&device, Lie::ReadsAnother, false).2, [9; 8]);
+        let (_, shown, last) = drawn(&device, Lie::ReadsAnother, true);
+        assert_eq!(shown, [9; 8]);
+        assert!(last.iter().all(|word| ![4, 9].contains(word)), "{last:?}");
+    });
+}
+
+#[test]
+fn do_8_what_a_program_asks_for_is_declared() {
+    on_each_driver(|device| {
+        let said = told(device, Lie::Asks);
+        assert_eq!(said.len(), 1);
+        assert_eq!(said[0].to_string(), "pass `own` doesn't name `other`, and the program asked the recorder for it");
+    });
+}
+
+/// What is told of four frames of a pass that is to set all of an image and a buffer, and sets so many rows of the one and words of the
+/// other.
+fn told_of_parts(device: &Device, [rows, words]: [u32; 2]) -> Vec<String> {
+    let mut small = Small::default();
+    let [mask, shown] = ["mask", "shown"].map(|name| small.image(name, Format::R32_UINT, [4, 2]));
+    let [list, last] = ["list", "last"].map(|name| small.buffer(name, 8));
+    let own = Work::Custom { callback: "own".into() };
+    let [image, buffer, kept] = [Resource::Image(mask), Resource::Buffer(list), Resource::Buffer(last)];
+    let mut own = transfer("own", own, &[(image, WHOLE, true), (buffer, WHOLE, true)]);
+    let accesses = Accesses::TRANSFER_WRITE;
+    own.uses = vec![
+        DeclaredUse::new(image, State { stages: Stages::CLEAR, accesses, layout: Layout::General }),
+        DeclaredUse::new(buffer, State { stages: Stages::CLEAR, accesses, layout: Layout::Undefined }),
+    ];
+    small.pass(own);
+    small.pass(draw("show", Draw::FullScreen).samples("source", mask, WHOLE).draws(shown, WHOLE, None));
+    small.pass(copy("take", (buffer, WHOLE), (kept, WHOLE)));
+    small.image_output(shown);
+    small.buffer_output(last);
+    let plan = planned(device, &small.frame, &Options { readable: true, ..Options::default() });
+    let options = ExecutorOptions { check_uses: true, ..ExecutorOptions::default() };
+    let mut executor = Executor::new(device, &plan, &mut library(SHADERS), &options).expect("an executor");
+    let zeros = staged_zeros(device);
+    let mut record = Custom(|recorder: &mut CustomRecorder<'_>| {
+        let (image, buffer) = (recorder.image("mask").expect("named"), recorder.buffer("list").expect("named"));
+        let (raw, commands) = (device.raw(), recorder.raw());
+        let layers = vk::ImageSubresourceLayers {
+            aspect_mask: vk::ImageAspectFlags::COLOR,
+            layer_count: 1,
+            ..Default::default()
+        };
+        let region = vk::BufferImageCopy::default().image_subresource(layers).image_extent(vk::Extent3D {
+            width: 4,
+            height: rows,
+            depth: 1,
+        });
+        // SAFETY: recording outside of scopes, into what the pass writes.
+        unsafe {
+            raw.cmd_copy_buffer_to_image(commands, zeros.0, image.raw, image.layout, &[region]);
+            // What garbage is, in turn, is no sign that nothing was set.
+            raw.cmd_fill_buffer(commands, buffer, 0, u64::from(4 * words), 5);
+        }
+    });
+    let mut said = Vec::new();
+    for _ in 0..4 {
+        match executor.frame(&mut record) {
+            Ok(_) => {}
+            Err(Error::BrokenPromises { promises }) => said.extend(promises.iter().map(ToString::to_string)),
+            Err(error) => panic!("{error}"),
+        }
+    }
+    drop(executor);
+    // SAFETY: the frames were waited for.
+    unsafe {
+        device.raw().destroy_buffer(zeros.0, None);
+        device.raw().free_memory(zeros.1, None);
+    }
+    said
+}
+
+/// A buffer of 32 bytes to copy from, all 0.
+fn staged_zeros(device: &Device) -> (vk::Buffer, vk::DeviceMemory) {
+    let raw = device.raw();
+    let info = vk::BufferCreateInfo::default().size(32).usage(vk::BufferUsageFlags::TRANSFER_SRC);
+    let (instance, physical) = device.raw_physical();
+    // SAFETY: the device lives; buffer and memory are new, and the memory is large enough.
+    unsafe {
+        let buffer = raw.create_buffer(&info, None).expect("a buffer");
+        let needs = raw.get_buffer_memory_requirements(buffer);
+        let types = instance.get_physical_device_memory_properties(physical);
+        let visible = vk::MemoryPropertyFlags::HOST_VISIBLE | vk::MemoryPropertyFlags::HOST_COHERENT;
+        let fits = |ty: &u32| {
+            needs.memory_type_bits >> ty & 1 == 1 && types.memory_types[*ty as usize].property_flags.contains(visible)
+        };
+        let ty = (0..types.memory_type_count).find(fits).expect("memory that the host writes");
+        let memory = vk::MemoryAllocateInfo::default().allocation_size(needs.size).memory_type_index(ty);
+        let memory = raw.allocate_memory(&memory, None).expect("memory");
+        raw.bind_buffer_memory(buffer, memory, 0).expect("bound");
+        let place = raw.map_memory(memory, 0, 32, vk::MemoryMapFlags::empty()).expect("mapped");
+        place.cast::<u8>().write_bytes(0, 32);
+        raw.unmap_memory(memory);
+        (buffer, memory)
+    }
+}
+
+#[test]
+fn do_8_what_a_pass_declares_to_set_and_leaves_untouched_is_told() {
+    on_each_driver_with(|device| {
+        let of_contents = |counts| {
+            let said = told_of_parts(&device, counts);
+            said.into_iter().filter(|it| !it.contains("validation layer")).collect::<Vec<_>>()
+        };
+        assert_eq!(of_contents([2, 8]), [""; 0]);
+        let image = "pass `own` declares `mask` as CLEAR, TRANSFER_WRITE, GENERAL, and 4 of 8 texels of mip 0, layer 0 are not set by \
+                     it, the first is number 4";
+        let buffer = "pass `own` declares `list` as CLEAR, TRANSFER_WRITE, and 1 of 8 words is not set by it, the first is number 7";
+        assert_eq!(of_contents([1, 7]), [image, buffer]);
+    });
+}
+
+#[test]
+fn a_plan_that_cannot_be_read_is_refused() {
+    let mut small = Small::default();
+    let [drawn, shown] = ["drawn", "shown"].map(|name| small.image(name, Format::R32_UINT, [4, 2]));
+    let list = small.buffer("list", 8);
+    small.pass(draw("number", Draw::FullScreen).draws(drawn, WHOLE, None));
+    let own = Work::Custom { callback: "own".into() };
+    small.pass(transfer("own", own, &[(Resource::Buffer(list), WHOLE, true)]));
+    small.pass(draw("show", Draw::FullScreen).samples("source", drawn, WHOLE).draws(shown, WHOLE, None));
+    small.buffer_output(list);
+    small.image_output(shown);
+    on_each_driver(|device| {
+        let options = ExecutorOptions { check_uses: true, ..ExecutorOptions::default() };
+        let made = |readable| {
+            let order = framewright_graph::compile::Order::File;
+            let plan = planned(device, &small.frame, &Options { readable, order, ..Options::default() });
+            Executor::new(device, &plan, &mut library(SHADERS), &options).map(drop).map_err(|error| error.to_string())
+        };
+        assert_eq!(made(true), Ok(()));
+        let said = made(false).expect_err("it can't be copied");
+        assert!(said.contains("`drawn` can't be watched: compile the Plan with `readable`"), "{said}");
+    });
+}
