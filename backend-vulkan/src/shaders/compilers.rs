@@ -88,7 +88,7 @@ impl Compilers {
                 }
                 no.what
             });
-            let SourceFile { path, shown, text, once } =
+            let SourceFile { path, shown, text, once, .. } =
                 found?.ok_or_else(|| format!("looked for it in {}", files.places(&from).join(", ")))?;
             known.insert(shown.clone(), (path, text.clone()));
             // The stage's own file is there already.
