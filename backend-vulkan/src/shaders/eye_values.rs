@@ -131,8 +131,10 @@ impl EyeValues {
                 match from {
                     None if !it.operands.iter().any(is_own) => block.instructions.push(it),
                     None => {
-                        let what = "it hands the index of a view, or the number of an instance, to a function as a variable";
-                        let words: &'static [&'static str] = &["SV_ViewID", "SV_InstanceID", "gl_ViewIndex", "gl_InstanceIndex"];
+                        let what =
+                            "it hands the index of a view, or the number of an instance, to a function as a variable";
+                        let words: &'static [&'static str] =
+                            &["SV_ViewID", "SV_InstanceID", "gl_ViewIndex", "gl_InstanceIndex"];
                         return Err(RefusedStage::beginning(words, what.to_owned()));
                     }
                     Some(from) if self.views.contains(&from) => {

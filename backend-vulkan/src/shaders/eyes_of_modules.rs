@@ -7,7 +7,9 @@
 use super::eye_values::EyeValues;
 use super::eyes::{BothEyes, EYE, HANDED_ON, LOCATION, NOT_AT_SEAM};
 use super::module::{IndexedModule, id, storage_class};
+use super::newer_version;
 use super::text::RefusedStage;
+use super::view_semantics;
 use crate::base::{ShaderStage, StageFacts};
 use framewright_graph::frame::{Eye, EyeForm};
 use framewright_graph::shader::EyeSource;
@@ -34,7 +36,11 @@ pub(super) fn for_both(spirv: &[u32], stage: ShaderStage, both: BothEyes) -> Res
     if cuts && module.capabilities.iter().any(|it| declares(it, Capability::ClipDistance)) {
         return Err(RefusedStage::beginning(&["SV_ClipDistance", "gl_ClipDistance"], NOT_AT_SEAM.to_owned()));
     }
-    let mut made = Wrapped::new(Builder::new_from_module(module), stage, both);
+    let mut builder = Builder::new_from_module(module);
+    if both.counts_instances() && both.form == EyeForm::Layers && stage.facts().places_vertices {
+        newer_version::raise(&mut builder)?;
+    }
+    let mut made = Wrapped::new(builder, stage, both);
     let mut values = EyeValues::of(made.eye);
     values.constants.clone_from(&found.constants);
     values.views.clone_from(&found.views);
@@ -47,7 +53,7 @@ pub(super) fn for_both(spirv: &[u32], stage: ShaderStage, both: BothEyes) -> Res
     Ok(made.builder.module().assemble())
 }
 
-/// Puts the eye in place of the index of a view where the device draws no views. `right`: the right one is drawn for by itself. In GLSL
+/// Puts the eye in place of the index of a view where the device draws no views. `asks`: the text of the stage does so; `right`: the right one is drawn for by itself. In GLSL
 /// that draws for both at once a variable knows the eye.
 ///
 /// # Errors
@@ -55,18 +61,18 @@ pub(super) fn for_both(spirv: &[u32], stage: ShaderStage, both: BothEyes) -> Res
 pub(super) fn without_views(
     spirv: Vec<u32>,
     both: Option<BothEyes>,
-    right: bool,
+    [asks, right]: [bool; 2],
 ) -> Result<Vec<u32>, RefusedStage> {
     let by_views = both.is_some_and(|both| both.source == EyeSource::ViewIndex);
-    if by_views || !names_capability(&spirv, Capability::MultiView) {
+    if by_views || !asks && !names_capability(&spirv, Capability::MultiView) {
         return Ok(spirv);
     }
     let module = rspirv::dr::load_words(&spirv).map_err(|error| format!("SPIR-V that can't be read: {error}"))?;
     let indexed = IndexedModule::new(&module);
     let found = Found::in_module(&indexed);
-    let known = indexed.variables().find(|(id, it)| {
-        storage_class(it) == Some(StorageClass::Private) && indexed.name(*id) == EYE
-    });
+    let known = indexed
+        .variables()
+        .find(|(id, it)| storage_class(it) == Some(StorageClass::Private) && indexed.name(*id) == EYE);
     let known = known.map(|(id, _)| id).filter(|_| both.is_some());
     let mut builder = Builder::new_from_module(module);
     let mut values = match known {
@@ -132,11 +138,19 @@ impl Found {
                     BuiltIn::BaseInstance => found.bases.push(variable),
                     _ => {}
                 },
+                // A compiler that doesn't know it took it for a value of another stage.
+                (Some(StorageClass::Input), _)
+                    if module.decoration_number(variable, Decoration::Location) == Some(view_semantics::LOCATION) =>
+                {
+                    found.views.push(variable);
+                }
                 (Some(StorageClass::Output), Some(Operand::BuiltIn(built_in))) => {
                     found.output(*built_in, variable, None);
                 }
                 (Some(StorageClass::Output), _) => {
-                    let Some(block) = module.pointee(it).filter(|ty| ty.class.opcode == Op::TypeStruct) else { continue };
+                    let Some(block) = module.pointee(it).filter(|ty| ty.class.opcode == Op::TypeStruct) else {
+                        continue;
+                    };
                     for (member, _) in (0..).zip(&block.operands) {
                         let of = block.result_id.unwrap_or(0);
                         let built_in = module.member_decoration(of, member, Decoration::BuiltIn).flatten();
@@ -234,11 +248,7 @@ impl Wrapped {
                 return Err("it chooses its layer, and so does a draw for both eyes".to_owned().into());
             }
             (Some(_), EyeForm::Layers) => {
-                let capability = match is_since(&self.builder, 1, 5) {
-                    true => Capability::ShaderLayer,
-                    false => Capability::ShaderViewportIndexLayerEXT,
-                };
-                self.demand(capability, (1, 5), "SPV_EXT_shader_viewport_index_layer");
+                self.demand(Capability::ShaderLayer, (1, 5), "SPV_EXT_shader_viewport_index_layer");
                 Some(self.built_in(self.int, StorageClass::Output, BuiltIn::Layer))
             }
             _ => None,
@@ -253,7 +263,10 @@ impl Wrapped {
         for target in handed_on.into_iter().chain(layer) {
             self.builder.store(target, eye, None, []).map_err(failed)?;
         }
-        if self.both.cuts_at_seam() && places_vertices && let Some(position) = found.position {
+        if self.both.cuts_at_seam()
+            && places_vertices
+            && let Some(position) = found.position
+        {
             self.place_in_half(found, position, eye).map_err(failed)?;
         }
         self.builder.ret().map_err(failed)?;

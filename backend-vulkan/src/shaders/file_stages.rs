@@ -10,6 +10,7 @@ use super::macros::{Macros, in_hlsl, is_of_glsl};
 use super::module_file::ModuleFile;
 use super::stage_sources::{StageCode, StageSource};
 use super::text;
+use super::view_semantics::placed;
 use crate::base::ShaderStage;
 use crate::process::CompileJob;
 use framewright_graph::base::nearest;
@@ -52,7 +53,7 @@ impl FileStage<'_> {
             language: Some(language),
             entry: entry.map(str::to_owned),
             shown: found.shown.clone(),
-            text: self.text(language, found, files),
+            text: self.text(language, found, files, compilers.knows_views(language)),
             macros: macros
                 .iter()
                 .filter(|(name, _)| !is_of_glsl(name))
@@ -72,13 +73,15 @@ impl FileStage<'_> {
     }
 
     /// The text that is compiled. Where it asks for the eye of a draw for both, it begins with what stands for that.
-    fn text(&self, language: FileLanguage, found: &SourceFile, files: &ShaderFiles) -> String {
+    /// `knows_views`: its compiler knows the index of a view.
+    fn text(&self, language: FileLanguage, found: &SourceFile, files: &ShaderFiles, knows_views: bool) -> String {
         let told = self.both && (language == FileLanguage::Hlsl || language == FileLanguage::Slang);
         let asks = || {
             self.macros.iter().any(|(_, value)| value.contains(EYE))
                 || text::place(files, found, |word| ASKING.contains(&word)).is_some()
         };
-        if told && asks() { eyes_of_modules::declared() + &found.text } else { found.text.clone() }
+        let text = if knows_views { found.text.clone() } else { placed(&found.text).into_owned() };
+        if told && asks() { eyes_of_modules::declared() + &text } else { text }
     }
 
     /// That the file has no such entry point, if a function there has nearly its name. The compiler's own words are of no help then.

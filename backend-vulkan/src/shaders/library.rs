@@ -11,7 +11,7 @@ use super::eyes_of_modules;
 use super::file_stages::FileStage;
 use super::files::{ShaderFiles, SourceFile};
 use super::layers;
-use super::macros::{Macros, PARTS, both_eyes, is_for_right_eye, macros};
+use super::macros::{Macros, both_eyes, in_layers, is_for_right_eye, macros, tells_parts};
 use super::needs::Needed;
 use super::program_supply::ProgramSupply;
 use super::reflect::reflect;
@@ -27,7 +27,7 @@ use crate::base::ShaderStage;
 use crate::process::{CompileJob, CompilerAnswer, Finding, Helper, Verdict};
 use framewright_graph::base::{FilePath, Root};
 use framewright_graph::device::{Need, NeedKind};
-use framewright_graph::frame::{Draw, EyeForm};
+use framewright_graph::frame::Draw;
 use framewright_graph::shader::{
     Binding, ConstantValue, DrawInterface, DrawInterfaces, PASS_SET, ProgramSet, ShaderInterface, ShaderInterfaces,
     ShaderName, ShaderProblem, StageName, UnbindableResource, Variant,
@@ -366,7 +366,7 @@ impl ShaderLibrary {
         }
         let told = match *both {
             Some(both) if code.is_foreign() => eyes_of_modules::for_both(&spirv, stage, both),
-            both => eyes_of_modules::without_views(spirv, both, is_for_right_eye(macros)),
+            both => eyes_of_modules::without_views(spirv, both, [mentioned.view, is_for_right_eye(macros)]),
         };
         let spirv = told.map_err(unsupported)?;
         let reflected = reflect(stage, &spirv, tells_parts(macros), both.is_some(), &self.program);
@@ -386,8 +386,9 @@ impl ShaderLibrary {
             && code.is_foreign()
             && let Verdict::Invalid(finding) = judge(&spirv)
         {
-            let what = format!("its SPIR-V can't be made to draw for both eyes at once: {}", finding.words);
-            return Err(unsupported(what.into()));
+            return Err(unsupported(
+                format!("it can't be made to draw for both eyes at once: {}", finding.words).into(),
+            ));
         }
         if mentioned.eye || mentioned.view {
             reflected.interface.sees_alike.clear();
@@ -466,11 +467,6 @@ impl ShaderInterfaces for ShaderLibrary {
     }
 }
 
-/// Whether push constants tell a stage which parts of images are in use.
-fn tells_parts(macros: &Macros) -> bool {
-    macros.iter().any(|(name, _)| name == PARTS)
-}
-
 /// A compute stage says how large its workgroups are. If it doesn't, GLSL makes them one invocation each, which hardly any shader
 /// means.
 fn sized(files: &ShaderFiles, stage: &SourceFile) -> Result<(), RefusedStage> {
@@ -502,13 +498,4 @@ fn placed_needs(needs: &[Needed], verdict: &Verdict, files: &ShaderFiles, stage:
         Verdict::None | Verdict::Valid | Verdict::Invalid(_) => None,
     };
     placed.chain(unjudged).collect()
-}
-
-/// Images that a variant samples in the layer of the eye that is drawn for.
-fn in_layers(variant: &Variant, stage: ShaderStage) -> Vec<String> {
-    if !stage.facts().draws {
-        return Vec::new();
-    }
-    let own = variant.eyes.iter().filter(|(_, form, eye)| *form == EyeForm::Layers && eye.is_none());
-    own.map(|(name, ..)| name.to_string()).collect()
 }

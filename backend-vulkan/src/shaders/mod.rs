@@ -36,6 +36,7 @@ mod module_file;
 mod module_lines;
 mod module_words;
 mod needs;
+mod newer_version;
 mod place_names;
 mod precompiled_shaders;
 mod program_resources;
@@ -53,6 +54,7 @@ mod stages;
 mod text;
 mod validator;
 mod varyings;
+mod view_semantics;
 
 pub use library::{CompiledCompute, CompiledShader, ShaderLibrary};
 pub use precompiled_shaders::PrecompiledShaders;

@@ -46,7 +46,8 @@ impl ModuleLines {
 
     /// The first line with such a word, as `FILE:LINE`.
     pub(super) fn place(&self, wanted: impl Fn(&str) -> bool) -> Option<String> {
-        let line = |lines: &BTreeMap<u32, String>| lines.iter().find(|(_, text)| words(text).any(&wanted)).map(|it| *it.0);
+        let line =
+            |lines: &BTreeMap<u32, String>| lines.iter().find(|(_, text)| words(text).any(&wanted)).map(|it| *it.0);
         self.0.iter().find_map(|(file, lines)| Some(format!("{file}:{}", line(lines)?)))
     }
 
@@ -78,7 +79,10 @@ impl ModuleLines {
             for it in function.blocks.iter().flat_map(|block| &block.instructions) {
                 match (it.class.opcode, &it.operands[..]) {
                     (Op::Line, [Operand::IdRef(file), Operand::LiteralBit32(line), ..]) => {
-                        at = strings.get(file).map(|file| (*file, *line)).filter(|(file, _)| !has_text.contains(&(*file).to_owned()));
+                        at = strings
+                            .get(file)
+                            .map(|file| (*file, *line))
+                            .filter(|(file, _)| !has_text.contains(&(*file).to_owned()));
                     }
                     (Op::NoLine, _) => at = None,
                     _ => {

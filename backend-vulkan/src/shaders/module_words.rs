@@ -141,7 +141,9 @@ pub(super) fn texts(bytes: &[u8]) -> Vec<(String, String)> {
                 goes_on = true;
                 texts.push((said(file), said(words)));
             }
-            (op::SOURCE_CONTINUED, words) if goes_on => texts.last_mut().into_iter().for_each(|it| it.1 += &text(words)),
+            (op::SOURCE_CONTINUED, words) if goes_on => {
+                texts.last_mut().into_iter().for_each(|it| it.1 += &text(words))
+            }
             (op::EXT_INST, [_, _, set, debug::SOURCE_CONTINUED, words]) if goes_on && sets.contains(set) => {
                 let more = said(words);
                 texts.last_mut().into_iter().for_each(|it| it.1 += &more);
@@ -180,7 +182,9 @@ fn without_notes(all: &[&[u32]]) -> Vec<u32> {
                 notes.insert(*id);
                 lines.extend((text(name) == debug::SET).then_some(*id));
             }
-            (op::EXT_INST, [_, id, set, debug::SOURCE, file, ..]) if lines.contains(set) => _ = sources.insert(*id, *file),
+            (op::EXT_INST, [_, id, set, debug::SOURCE, file, ..]) if lines.contains(set) => {
+                _ = sources.insert(*id, *file)
+            }
             _ => {}
         }
     }

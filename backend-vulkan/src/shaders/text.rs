@@ -354,8 +354,13 @@ mod tests {
 
     /// How often files are read for a stage with this text, whose files hold `text` each.
     fn reads(stage: String, text: impl Fn(&str) -> String) -> usize {
-        let found =
-            |name: &str, text: String| SourceFile { path: name.into(), shown: name.to_owned(), text, once: None, inside: ModuleLines::default() };
+        let found = |name: &str, text: String| SourceFile {
+            path: name.into(),
+            shown: name.to_owned(),
+            text,
+            once: None,
+            inside: ModuleLines::default(),
+        };
         let mut reads = 0;
         included_by(&found("stage.frag", stage), |_, name| {
             reads += 1;

@@ -38,7 +38,7 @@ fn differing(one: &[[f32; 4]], other: &[[f32; 4]]) -> usize {
 }
 
 /// Compares the pictures of HLSL with those of GLSL, and both with what is known of them.
-fn are_right(pictures: &Pictures, [width, height]: [u32; 2], by_view: bool, how: &str) {
+fn are_right(pictures: &Pictures, [width, height]: [u32; 2], how: &str) {
     let [told, places, undivided, told_too, places_too, undivided_too, viewed, sampled, sampled_too, seen, seen_too] =
         &pictures[..]
     else {
@@ -61,9 +61,7 @@ fn are_right(pictures: &Pictures, [width, height]: [u32; 2], by_view: bool, how:
         same(undivided, undivided_too, "places before a division");
         same(sampled, sampled_too, "what is sampled");
         same(seen, seen_too, "objects");
-        if by_view {
-            same(told, viewed, "the index of a view");
-        }
+        same(told, viewed, "the index of a view");
     }
     for (of_eyes, what) in [(sampled_too, "is sampled"), (seen_too, "is seen")] {
         assert!(differing(&of_eyes[0], &of_eyes[1]) > 100, "{how}: both eyes see the same of what {what}");
@@ -84,11 +82,8 @@ fn shaders_in_hlsl_draw_for_both_eyes_what_glsl_draws() -> Result<(), Box<dyn Er
             println!("skipped: `{program}` isn't there; tests/compilers/fetch.sh fetches compilers");
             continue;
         }
-        // glslang of Debian 12 takes `SV_ViewID` for a name like any other.
-        let by_view = program != "glslangValidator";
-        let set: &[(&str, &str)] = if by_view { &[] } else { &[("views", "false")] };
         for extent in [EVEN, EXTENT] {
-            let case = Case { pipeline, set, scene: &scene, extent, frames: 1 };
+            let case = Case { pipeline, set: &[], scene: &scene, extent, frames: 1 };
             let turned = Ways { stereo: Stereo::DoubleWide, rotation: Rotation::Rotate90 };
             let ways = [vec![Stereo::MultiPass], at_once(device)].concat();
             let ways: Vec<Ways> = ways.into_iter().map(upright).chain([turned]).collect();
@@ -96,11 +91,13 @@ fn shaders_in_hlsl_draw_for_both_eyes_what_glsl_draws() -> Result<(), Box<dyn Er
                 let how = format!("{command} {} {:?} {extent:?}", ways.stereo.name(), ways.rotation);
                 match drawn(device, &case, ways, command) {
                     // slangc counts vertices and instances from the first of a draw.
-                    Err(error) if error.to_string().contains("the vertex stage needs the feature shaderDrawParameters") => {
+                    Err(error)
+                        if error.to_string().contains("the vertex stage needs the feature shaderDrawParameters") =>
+                    {
                         println!("skipped: {command}, whose vertex stage this device can't draw");
                     }
                     Err(error) => return Err(format!("{how}: {error}").into()),
-                    Ok(pictures) if ways.rotation == Rotation::Identity => are_right(&pictures, extent, by_view, &how),
+                    Ok(pictures) if ways.rotation == Rotation::Identity => are_right(&pictures, extent, &how),
                     // Outputs are turned back: each eye's picture has the sides exchanged in between.
                     Ok(pictures) => assert_eq!(pictures.len(), 11),
                 }
