@@ -72,16 +72,15 @@ impl RefusedStage {
     }
 }
 
-/// The first place, as `FILE:LINE`, where a stage's file or one that it includes has such a word outside comments. In SPIR-V it is one of
-/// the source, as far as that is told: `FILE:LINE of MODULE`.
+/// The first place, as `FILE:LINE`, where a stage's file or one that it includes has such a word outside comments. Of SPIR-V it is one of
+/// the source, as far as that is told.
 pub(super) fn place(files: &ShaderFiles, stage: &SourceFile, wanted: impl Fn(&str) -> bool) -> Option<String> {
     let line = |found: &SourceFile| {
         let text = without_comments(&found.text);
         let at = text.lines().position(|line| words(line).any(&wanted))?;
         Some(format!("{}:{}", found.shown, at + 1))
     };
-    let inside = || Some(format!("{} of {}", stage.inside.place(&wanted)?, stage.shown));
-    line(stage).or_else(|| included(files, stage).iter().find_map(line)).or_else(inside)
+    line(stage).or_else(|| included(files, stage).iter().find_map(line)).or_else(|| stage.inside.place(&wanted))
 }
 
 /// A line that a module tells, as messages show it. A file of the stage's is called as everywhere, whatever the folder where a command
@@ -92,7 +91,7 @@ pub(super) fn line_of(files: &ShaderFiles, stage: &SourceFile, file: &str, line:
     let included = || included(files, stage).iter().find(|it| is_it(it)).map(|it| it.shown.clone());
     match all.into_iter().next().or_else(included) {
         Some(shown) => format!("{shown}:{line}"),
-        None => format!("{file}:{line} of {}", stage.shown),
+        None => format!("{file}:{line}"),
     }
 }
 

@@ -303,6 +303,27 @@ fn a_draw_for_both_eyes_takes_modules_in_each_way() {
     }
 }
 
+/// Instructions with lines of SPIR-V's own or of a set for debuggers, and modules that hold their text (DO-3).
+#[test]
+fn a_module_that_tells_lines_is_placed_in_its_source() {
+    let modules: [(&str, &[u8]); 5] = [
+        ("text.spv", include_bytes!("../../../../tests/shaders/spirv/discard_text.spv")),
+        ("text_of_set.spv", include_bytes!("../../../../tests/shaders/spirv/discard_gvs.spv")),
+        ("lines.spv", include_bytes!("../../../../tests/shaders/spirv/discard_dxc.spv")),
+        ("lines_of_set.spv", include_bytes!("../../../../tests/shaders/spirv/discard_dxc_set.spv")),
+        ("slang.spv", include_bytes!("../../../../tests/shaders/spirv/discard_slang.spv")),
+    ];
+    for (name, _) in modules {
+        let drawn = of_modules(&modules).draw_shader(name, Draw::FullScreen, &Variant::default());
+        let interface = drawn.unwrap_or_else(|problem| panic!("{name}: {problem:?}"));
+        assert!(interface.discards, "{name}");
+        assert_eq!(interface.leaves_out_at.as_deref(), Some("discard.hlsl:5"), "{name}");
+    }
+    // Without lines the module itself is all that is known.
+    let stripped = of_modules(&MODULES).draw_shader("post_stripped.spv", Draw::FullScreen, &Variant::default());
+    assert_eq!(stripped.expect("read").leaves_out_at, None);
+}
+
 #[test]
 fn files_are_found_as_glsl_is_and_are_part_of_a_digest() {
     let folder = tempfile::tempdir().expect("a folder");
