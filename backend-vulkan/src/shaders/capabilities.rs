@@ -145,11 +145,6 @@ const UNSUPPORTED: &[UnsupportedFeature] = &[
         "layers and viewports that a vertex shader chooses: draw into each layer by a pass of its own",
     ),
     (
-        &[Capability::MultiView],
-        &["gl_ViewIndex"],
-        "the index of a view: `eye_index` says which eye is drawn for, in each way to draw both",
-    ),
-    (
         &[Capability::StorageImageMultisample, Capability::ImageMSArray],
         &["image2DMS", "uimage2DMS", "iimage2DMS"],
         "storage images with several samples: sample them by a `sampler2DMS`",

@@ -11,6 +11,7 @@ use super::shader_compilers::{CompilerCommand, ShaderCompilers};
 use super::spirv_cache::{Inclusions, SpirvCache};
 use super::text::included;
 use super::validator::judge;
+use super::view_semantics::placed;
 use crate::base::{Cancel, digest};
 use crate::process::{
     CompileFailure, CompileJob, CompilerAnswer, Helper, IncludedFile, LARGEST_SPIRV, Limits, NoAnswer, Verdict,
@@ -88,9 +89,10 @@ impl Compilers {
                 }
                 no.what
             });
-            let SourceFile { path, shown, text, once } =
+            let SourceFile { path, shown, text, once, .. } =
                 found?.ok_or_else(|| format!("looked for it in {}", files.places(&from).join(", ")))?;
             known.insert(shown.clone(), (path, text.clone()));
+            let text = if self.commands.knows_views(job.language) { text } else { placed(&text).into_owned() };
             // The stage's own file is there already.
             let text = if once.is_some() && once == source.once { String::new() } else { text };
             Ok(IncludedFile { shown, text, once })
@@ -151,6 +153,10 @@ impl Compilers {
         if let Some(found) = found {
             return Ok(found);
         }
+        let mut included = included;
+        if !self.commands.knows_views(job.language) {
+            included.iter_mut().for_each(|file| file.text = placed(&file.text).into_owned());
+        }
         let spirv = by_command::compile(command, job, source, &included, limits.time, &cancel)?;
         // It is judged when an entry point was cut out of it.
         let answer = CompilerAnswer { spirv, verdict: Verdict::None };
@@ -158,6 +164,11 @@ impl Compilers {
             cache.keep(job, Inclusions::of(job), &answer);
         }
         Ok(answer)
+    }
+
+    /// Whether what compiles a language knows the index of a view.
+    pub(super) fn knows_views(&self, language: FileLanguage) -> bool {
+        self.commands.knows_views(Some(language))
     }
 
     /// The name of the compiler of a language, for messages.

@@ -21,12 +21,9 @@ pub(super) const HANDED_ON: &str = "framewright_eye_of_triangle";
 /// `maxVertexOutputComponents` and `maxFragmentInputComponents`: 16 locations. `gl_Position` may take one.)
 pub(super) const LOCATION: u32 = 14;
 
-/// Words of `include/stereo.hlsl` and `include/rotation.hlsl` that know one eye's picture alone.
-pub(super) const OF_ONE_EYE: [&str; 5] = ["eye_index", "scale_offset", "screen_uv", "screen_pos", "frag_coord"];
-
-/// Why a stage in another language than GLSL isn't used in a draw for both eyes.
-pub(super) const NOT_FOR_BOTH_EYES: &str = "it is drawn for both eyes at once, and only GLSL is told which eye it draws for: draw each \
-    eye by itself (`multi-pass`), or write it in GLSL";
+/// Words of `include/stereo.hlsl` and `include/rotation.hlsl` that ask for the eye.
+pub(super) const ASKING: [&str; 6] =
+    ["eye_index", "scale_offset", "screen_uv", "screen_pos", "frag_coord", "FRAMEWRIGHT_BOTH_EYES"];
 
 /// Why a shader's own clip distances aren't used in a draw for both halves.
 pub(super) const NOT_AT_SEAM: &str = "it sets clip distances, and a draw for both halves of a picture cuts at their seam by one of its \
@@ -56,12 +53,6 @@ impl BothEyes {
     /// Whether the vertex stage hands the eye to the fragment stage, at a location of its own.
     pub(super) fn counts_instances(self) -> bool {
         matches!(self.source, EyeSource::InstanceBit | EyeSource::InstanceParity)
-    }
-
-    /// Whether a stage in another language than GLSL can't be drawn so. `asks`: whether it uses a word of [`OF_ONE_EYE`].
-    pub(super) fn refuses_files(self, stage: ShaderStage, asks: impl Fn() -> bool) -> bool {
-        let is_one_picture = self.form == EyeForm::Layers && matches!(self.source, EyeSource::One(_));
-        self.counts_instances() && stage.facts().places_vertices || !is_one_picture && asks()
     }
 
     /// Whether one draw fills both halves of a picture: clip distances cut what reaches over the seam.

@@ -3,11 +3,14 @@
 use super::by_command;
 use super::compilers::Compilers;
 use super::constants::Constants;
+use super::eyes::{ASKING, EYE};
+use super::eyes_of_modules;
 use super::files::{ShaderFiles, SourceFile};
 use super::macros::{Macros, in_hlsl, is_of_glsl};
 use super::module_file::ModuleFile;
 use super::stage_sources::{StageCode, StageSource};
 use super::text;
+use super::view_semantics::placed;
 use crate::base::ShaderStage;
 use crate::process::CompileJob;
 use framewright_graph::base::nearest;
@@ -22,6 +25,8 @@ pub(super) struct FileStage<'s> {
     pub(super) macros: &'s Macros,
     /// Values of its specialization constants.
     pub(super) constants: &'s Constants,
+    /// Whether it draws for both eyes at once.
+    pub(super) both: bool,
 }
 
 impl FileStage<'_> {
@@ -35,7 +40,7 @@ impl FileStage<'_> {
         compilers: &mut Compilers,
         files: &ShaderFiles,
     ) -> Result<Vec<u32>, ShaderProblem> {
-        let FileStage { file, entry, stage, macros, constants } = *self;
+        let FileStage { file, entry, stage, macros, constants, .. } = *self;
         let language = match &source.code {
             StageCode::Module(module) => return module.cut(file, stage, entry, constants),
             StageCode::Text(language) => *language,
@@ -48,7 +53,7 @@ impl FileStage<'_> {
             language: Some(language),
             entry: entry.map(str::to_owned),
             shown: found.shown.clone(),
-            text: found.text.clone(),
+            text: self.text(language, found, files, compilers.knows_views(language)),
             macros: macros
                 .iter()
                 .filter(|(name, _)| !is_of_glsl(name))
@@ -65,6 +70,18 @@ impl FileStage<'_> {
         // Compilers that are told of one entry point may call it `main`.
         let renamed = compilers.is_told_entry(language) && module.only_entry(stage) == Some("main");
         module.cut(file, stage, entry.filter(|_| !renamed), constants)
+    }
+
+    /// The text that is compiled. Where it asks for the eye of a draw for both, it begins with what stands for that.
+    /// `knows_views`: its compiler knows the index of a view.
+    fn text(&self, language: FileLanguage, found: &SourceFile, files: &ShaderFiles, knows_views: bool) -> String {
+        let told = self.both && (language == FileLanguage::Hlsl || language == FileLanguage::Slang);
+        let asks = || {
+            self.macros.iter().any(|(_, value)| value.contains(EYE))
+                || text::place(files, found, |word| ASKING.contains(&word)).is_some()
+        };
+        let text = if knows_views { found.text.clone() } else { placed(&found.text).into_owned() };
+        if told && asks() { eyes_of_modules::declared() + &text } else { text }
     }
 
     /// That the file has no such entry point, if a function there has nearly its name. The compiler's own words are of no help then.

@@ -1,5 +1,6 @@
 //! Where shader sources are found: folders on disk, and the texts that are shipped with the program.
 
+use super::module_lines::ModuleLines;
 use super::text::{is_once, without_comments};
 use crate::base::digest;
 use crate::process::LARGEST_SPIRV;
@@ -36,6 +37,8 @@ pub(super) struct SourceFile {
     pub(super) text: String,
     /// What tells it from other files, if it says `#pragma once`.
     pub(super) once: Option<u64>,
+    /// Of SPIR-V, the lines of what it was compiled of.
+    pub(super) inside: ModuleLines,
 }
 
 /// Why a file that is there is no shader.
@@ -78,7 +81,13 @@ impl ShaderFiles {
     /// Those of [`ShaderFiles::find`].
     pub(super) fn find_module(&self, name: &FilePath) -> Result<Option<(SourceFile, Vec<u8>)>, NoShader> {
         let FilePath::Own(path) = name else { return Ok(None) };
-        let source = |shown: String| SourceFile { path: path.as_ref().into(), shown, text: String::new(), once: None };
+        let source = |shown: String| SourceFile {
+            path: path.as_ref().into(),
+            shown,
+            text: String::new(),
+            once: None,
+            inside: ModuleLines::default(),
+        };
         if let Some((bytes, _, shown)) = self.bytes_on_disk(path, LARGEST_SPIRV)? {
             return Ok(Some((source(shown.replace('\0', "")), bytes)));
         }
@@ -113,7 +122,8 @@ impl ShaderFiles {
         let Some((bytes, found, shown)) = self.bytes_on_disk(path, MAX_SOURCE_BYTES)? else { return Ok(None) };
         let text = text(&bytes, &shown)?;
         let once = FileIdentity::of(&found).filter(|_| is_once(&text)).map(|file| digest(&file));
-        Ok(Some(SourceFile { path: path.into(), shown: shown.replace('\0', ""), text, once }))
+        let shown = shown.replace('\0', "");
+        Ok(Some(SourceFile { path: path.into(), shown, text, once, inside: ModuleLines::default() }))
     }
 
     /// The bytes of the file of that path in the first folder that has one, at most so many, with its place, and its name in messages.
@@ -137,7 +147,8 @@ impl ShaderFiles {
         let (name, text) = self.shipped.iter().find(|(shipped, _)| *shipped == name)?;
         let path = FilePath::Shipped((*name).into());
         let once = is_once(text).then(|| digest(name));
-        Some(SourceFile { shown: path.to_string(), path, text: (*text).to_owned(), once })
+        let inside = ModuleLines::default();
+        Some(SourceFile { shown: path.to_string(), path, text: (*text).to_owned(), once, inside })
     }
 
     /// Whether files in that folder may be read.

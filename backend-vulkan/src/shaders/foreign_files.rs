@@ -182,10 +182,12 @@ fn makes_strings(line: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use super::super::module_lines::ModuleLines;
     use super::*;
 
     fn lines(name: &str, text: &str) -> Vec<usize> {
-        let file = SourceFile { path: name.into(), shown: name.to_owned(), text: text.to_owned(), once: None };
+        let inside = ModuleLines::default();
+        let file = SourceFile { path: name.into(), shown: name.to_owned(), text: text.to_owned(), once: None, inside };
         let lines: BTreeSet<usize> = asked(&file).into_iter().map(|(line, _)| line).collect();
         lines.into_iter().collect()
     }

@@ -24,20 +24,21 @@ pub(super) fn by_eye(spirv: &[u32], names: &[&str]) -> Result<Vec<u32>, String> 
         match storage_class(instruction) {
             Some(StorageClass::Private) if name == EYE => eye = Some(variable),
             Some(StorageClass::UniformConstant) if names.contains(&name) => {
-                let image = indexed
-                    .pointee(instruction)
-                    .filter(|ty| ty.class.opcode == Op::TypeSampledImage)
-                    .and_then(|ty| indexed.global(id(ty, 0)?))
-                    .ok_or_else(|| format!("`{name}` is no image with its sampler"))?;
-                found.push((variable, FlatTypes::of(image).ok_or_else(|| format!("`{name}` isn't declared flat"))?));
+                let ty = indexed.pointee(instruction);
+                let alone = ty.filter(|ty| ty.class.opcode == Op::TypeImage);
+                let joined = ty.filter(|ty| ty.class.opcode == Op::TypeSampledImage);
+                let image = alone.or_else(|| joined.and_then(|ty| indexed.global(id(ty, 0)?)));
+                let image = image.ok_or_else(|| format!("`{name}` is no image that is sampled"))?;
+                let flat = FlatTypes::of(image).ok_or_else(|| format!("`{name}` isn't declared flat"))?;
+                found.push((variable, flat, alone.is_some()));
             }
             _ => {}
         }
     }
     let (Some(eye), false) = (eye, found.is_empty()) else { return Ok(spirv.to_vec()) };
     let mut layers = Layers::new(Builder::new_from_module(module), eye);
-    for (variable, flat) in found {
-        layers.declare(variable, flat);
+    for (variable, flat, alone) in found {
+        layers.declare(variable, flat, alone);
     }
     layers.functions()?;
     Ok(layers.builder.module().assemble())
@@ -65,7 +66,16 @@ impl FlatTypes {
 struct LayeredTypes {
     image: u32,
     sampled_image: u32,
-    pointer: u32,
+    /// What is loaded: the image, or the image with its sampler.
+    loaded: u32,
+}
+
+/// A value that is an image in layers, or leads to one.
+#[derive(Debug, Clone, Copy)]
+struct Layered {
+    types: LayeredTypes,
+    /// Its own type, which is one of them.
+    ty: u32,
 }
 
 struct Layers {
@@ -75,13 +85,13 @@ struct Layers {
     float: u32,
     int: u32,
     /// Image variables in layers.
-    variables: HashMap<u32, LayeredTypes>,
+    variables: HashMap<u32, Layered>,
     /// Functions as they were.
     originals: HashMap<u32, Function>,
     /// By function and by which of its parameters are in layers, what it is then.
     lifted: HashMap<(u32, Vec<Option<u32>>), u32>,
     /// Functions that are to be made.
-    wanted: Vec<(u32, Vec<Option<LayeredTypes>>, u32)>,
+    wanted: Vec<(u32, Vec<Option<Layered>>, u32)>,
 }
 
 impl Layers {
@@ -93,14 +103,16 @@ impl Layers {
         Layers { builder, eye, float, int, variables, originals, lifted, wanted }
     }
 
-    /// Declares a variable in layers. It comes last then, behind its type.
-    fn declare(&mut self, variable: u32, flat: FlatTypes) {
+    /// Declares a variable in layers. It comes last then, behind its type. `alone`: it is without a sampler.
+    fn declare(&mut self, variable: u32, flat: FlatTypes, alone: bool) {
         let FlatTypes { sampled, depth, multisampled } = flat;
         let format = ImageFormat::Unknown;
         let image = self.builder.type_image(sampled, Dim::Dim2D, depth, 1, multisampled, 1, format, None);
         let sampled_image = self.builder.type_sampled_image(image);
-        let pointer = self.builder.type_pointer(None, StorageClass::UniformConstant, sampled_image);
-        self.variables.insert(variable, LayeredTypes { image, sampled_image, pointer });
+        let loaded = if alone { image } else { sampled_image };
+        let pointer = self.builder.type_pointer(None, StorageClass::UniformConstant, loaded);
+        let types = LayeredTypes { image, sampled_image, loaded };
+        self.variables.insert(variable, Layered { types, ty: pointer });
         let globals = &mut self.builder.module_mut().types_global_values;
         if let Some(at) = globals.iter().position(|it| it.result_id == Some(variable)) {
             let mut declared = globals.remove(at);
@@ -128,7 +140,7 @@ impl Layers {
     }
 
     /// The function `name`, like another one but for its parameters. All ids in it are new.
-    fn copied(&mut self, mut function: Function, parameters: &[Option<LayeredTypes>], name: u32) -> Function {
+    fn copied(&mut self, mut function: Function, parameters: &[Option<Layered>], name: u32) -> Function {
         let mut ids = HashMap::new();
         let all = |function: &mut Function, each: &mut dyn FnMut(&mut Instruction)| {
             let Function { def, end, parameters, blocks } = function;
@@ -152,7 +164,7 @@ impl Layers {
             }
         });
         for (parameter, arrayed) in function.parameters.iter_mut().zip(parameters) {
-            parameter.result_type = arrayed.map_or(parameter.result_type, |arrayed| Some(arrayed.pointer));
+            parameter.result_type = arrayed.map_or(parameter.result_type, |arrayed| Some(arrayed.ty));
         }
         let types: Vec<u32> = function.parameters.iter().filter_map(|it| it.result_type).collect();
         if let Some(def) = &mut function.def {
@@ -179,7 +191,7 @@ impl Layers {
     }
 
     /// A function in which what is `known` to be in layers, and what comes of it, is looked up so.
-    fn rewritten(&mut self, mut function: Function, mut known: HashMap<u32, LayeredTypes>) -> Result<Function, String> {
+    fn rewritten(&mut self, mut function: Function, mut known: HashMap<u32, Layered>) -> Result<Function, String> {
         let mut types = HashMap::new();
         for it in function.blocks.iter().flat_map(|it| &it.instructions).chain(&function.parameters) {
             types.extend(it.result_id.zip(it.result_type));
@@ -196,7 +208,7 @@ impl Layers {
     fn step(
         &mut self,
         mut it: Instruction,
-        known: &mut HashMap<u32, LayeredTypes>,
+        known: &mut HashMap<u32, Layered>,
         types: &HashMap<u32, u32>,
         made: &mut Vec<Instruction>,
     ) -> Result<(), String> {
@@ -209,15 +221,17 @@ impl Layers {
             made.push(it);
             return Ok(());
         };
+        let Layered { types: all, ty } = arrayed;
         match it.class.opcode {
-            Op::Load => {
-                it.result_type = Some(arrayed.sampled_image);
-                known.extend(it.result_id.map(|result| (result, arrayed)));
-                made.push(it);
-            }
-            Op::Image => {
-                it.result_type = Some(arrayed.image);
-                known.extend(it.result_id.map(|result| (result, arrayed)));
+            Op::Load | Op::Image | Op::SampledImage | Op::CopyObject => {
+                let ty = match it.class.opcode {
+                    Op::Load => all.loaded,
+                    Op::Image => all.image,
+                    Op::SampledImage => all.sampled_image,
+                    _ => ty,
+                };
+                it.result_type = Some(ty);
+                known.extend(it.result_id.map(|result| (result, Layered { types: all, ty })));
                 made.push(it);
             }
             Op::ImageSampleImplicitLod
@@ -226,15 +240,16 @@ impl Layers {
             | Op::ImageSampleDrefImplicitLod
             | Op::ImageSampleDrefExplicitLod
             | Op::ImageDrefGather => {
-                self.give_layer(&mut it, self.float, types, made)?;
+                self.give_layer(&mut it, types, made)?;
                 made.push(it);
             }
             Op::ImageFetch => {
-                self.give_layer(&mut it, self.int, types, made)?;
+                self.give_layer(&mut it, types, made)?;
                 made.push(it);
             }
             Op::ImageQuerySizeLod | Op::ImageQuerySize => {
-                let size = self.builder.type_vector(self.int, 3);
+                let component = it.result_type.and_then(|ty| self.component(ty)).unwrap_or(self.int);
+                let size = self.builder.type_vector(component, 3);
                 let (flat, result) = (it.result_type, it.result_id);
                 let all = self.builder.id();
                 (it.result_type, it.result_id) = (Some(size), Some(all));
@@ -253,14 +268,14 @@ impl Layers {
     fn give_layer(
         &mut self,
         it: &mut Instruction,
-        component: u32,
         types: &HashMap<u32, u32>,
         made: &mut Vec<Instruction>,
     ) -> Result<(), String> {
-        let flat = self.builder.type_vector(component, 2);
-        let [with_depth, with_more] = [3, 4].map(|length| self.builder.type_vector(component, length));
         let unusual = || format!("Op{} with an unusual coordinate", named(it.class.opcode));
         let given = id(it, 1).ok_or_else(unusual)?;
+        let component = self.type_of(given, types).and_then(|ty| self.component(ty)).ok_or_else(unusual)?;
+        let flat = self.builder.type_vector(component, 2);
+        let [with_depth, with_more] = [3, 4].map(|length| self.builder.type_vector(component, length));
         let coordinate = match self.type_of(given, types) {
             Some(ty) if ty == flat => given,
             // The compiler hands over the depth that is compared behind the coordinate too.
@@ -274,18 +289,27 @@ impl Layers {
         };
         let eye = self.builder.id();
         made.push(Instruction::new(Op::Load, Some(self.int), Some(eye), vec![Operand::IdRef(self.eye)]));
-        let layer = if component == self.float {
-            let layer = self.builder.id();
-            made.push(Instruction::new(Op::ConvertSToF, Some(self.float), Some(layer), vec![Operand::IdRef(eye)]));
-            layer
-        } else {
+        let layer = if component == self.int {
             eye
+        } else {
+            // Texels may be numbered without signs.
+            let op = if component == self.float { Op::ConvertSToF } else { Op::Bitcast };
+            let layer = self.builder.id();
+            made.push(Instruction::new(op, Some(component), Some(layer), vec![Operand::IdRef(eye)]));
+            layer
         };
         let (ty, place) = (self.builder.type_vector(component, 3), self.builder.id());
         let parts = vec![Operand::IdRef(coordinate), Operand::IdRef(layer)];
         made.push(Instruction::new(Op::CompositeConstruct, Some(ty), Some(place), parts));
         it.operands[1] = Operand::IdRef(place);
         Ok(())
+    }
+
+    /// The type of a vector's component.
+    fn component(&self, vector: u32) -> Option<u32> {
+        let globals = &self.builder.module_ref().types_global_values;
+        let ty = globals.iter().find(|it| it.result_id == Some(vector))?;
+        id(ty, 0).filter(|_| ty.class.opcode == Op::TypeVector)
     }
 
     /// The type of a value of a function, or of a constant.
@@ -295,14 +319,14 @@ impl Layers {
     }
 
     /// Calls the function that takes what it is given.
-    fn call(&mut self, it: &mut Instruction, known: &HashMap<u32, LayeredTypes>) {
+    fn call(&mut self, it: &mut Instruction, known: &HashMap<u32, Layered>) {
         let Some(callee) = id(it, 0) else { return };
         let given = it.operands[1..].iter().map(|it| known.get(&it.id_ref_any()?).copied());
-        let given: Vec<Option<LayeredTypes>> = given.collect();
+        let given: Vec<Option<Layered>> = given.collect();
         if given.iter().all(Option::is_none) {
             return;
         }
-        let key = (callee, given.iter().map(|it| it.map(|it| it.pointer)).collect());
+        let key = (callee, given.iter().map(|it| it.map(|it| it.ty)).collect());
         let name = match self.lifted.get(&key) {
             Some(name) => *name,
             None => {

@@ -7,10 +7,11 @@ use super::constants;
 use super::coverage::{DISCARDS, MASKS_SAMPLES};
 use super::distances;
 use super::eyes::{self, BothEyes};
+use super::eyes_of_modules;
 use super::file_stages::FileStage;
 use super::files::{ShaderFiles, SourceFile};
 use super::layers;
-use super::macros::{Macros, PARTS, both_eyes, macros};
+use super::macros::{Macros, both_eyes, in_layers, is_for_right_eye, macros, tells_parts};
 use super::needs::Needed;
 use super::program_supply::ProgramSupply;
 use super::reflect::reflect;
@@ -26,7 +27,7 @@ use crate::base::ShaderStage;
 use crate::process::{CompileJob, CompilerAnswer, Finding, Helper, Verdict};
 use framewright_graph::base::{FilePath, Root};
 use framewright_graph::device::{Need, NeedKind};
-use framewright_graph::frame::{Draw, EyeForm};
+use framewright_graph::frame::Draw;
 use framewright_graph::shader::{
     Binding, ConstantValue, DrawInterface, DrawInterfaces, PASS_SET, ProgramSet, ShaderInterface, ShaderInterfaces,
     ShaderName, ShaderProblem, StageName, UnbindableResource, Variant,
@@ -312,17 +313,13 @@ impl ShaderLibrary {
     /// The SPIR-V of a stage, of the file's or compiled.
     fn spirv_of(&mut self, source: &StageSource, key: &StageKey) -> Result<CompilerAnswer, ShaderProblem> {
         let StageSource { found, .. } = source;
-        let (name, stage, macros, both, in_layers, constants) = key;
+        let (name, stage, macros, both, _, constants) = key;
         let stage = *stage;
         let (compilers, files, program) = (&mut self.compilers, &self.sources.files, &self.program);
         let unsupported = |refused: RefusedStage| ShaderProblem::Unsupported { what: refused.placed(files, found) };
         if let StageName::File { file, entry } = name {
-            let wanted = FileStage { file, entry: entry.as_deref(), stage, macros, constants };
+            let wanted = FileStage { file, entry: entry.as_deref(), stage, macros, constants, both: both.is_some() };
             let spirv = wanted.compiled(source, compilers, files)?;
-            let asks = || text::place(files, found, |word| eyes::OF_ONE_EYE.contains(&word)).is_some();
-            if both.is_some_and(|both| !in_layers.is_empty() || both.refuses_files(stage, asks)) {
-                return Err(unsupported(eyes::NOT_FOR_BOTH_EYES.to_owned().into()));
-            }
             let verdict = judge(&spirv);
             return Ok(CompilerAnswer { spirv, verdict });
         }
@@ -367,6 +364,11 @@ impl ShaderLibrary {
         if let (true, Verdict::Invalid(finding)) = (code.is_foreign(), &verdict) {
             return Err(ShaderProblem::Unsupported { what: invalid(finding, files, found) });
         }
+        let told = match *both {
+            Some(both) if code.is_foreign() => eyes_of_modules::for_both(&spirv, stage, both),
+            both => eyes_of_modules::without_views(spirv, both, [mentioned.view, is_for_right_eye(macros)]),
+        };
+        let spirv = told.map_err(unsupported)?;
         let reflected = reflect(stage, &spirv, tells_parts(macros), both.is_some(), &self.program);
         let mut reflected = reflected.map_err(unsupported)?;
         // A resource that no pass can give is refused later, in better words.
@@ -380,7 +382,15 @@ impl ShaderLibrary {
         let names: Vec<&str> = in_layers.iter().map(String::as_str).collect();
         let by_eye = |spirv: Vec<u32>| layers::by_eye(&spirv, &names).map_err(|what| unsupported(what.into()));
         let spirv = if names.is_empty() { spirv } else { by_eye(spirv)? };
-        if mentioned.eye {
+        if both.is_some()
+            && code.is_foreign()
+            && let Verdict::Invalid(finding) = judge(&spirv)
+        {
+            return Err(unsupported(
+                format!("it can't be made to draw for both eyes at once: {}", finding.words).into(),
+            ));
+        }
+        if mentioned.eye || mentioned.view {
             reflected.interface.sees_alike.clear();
         }
         let spirv = if stage.facts().writes_attachments { without_idle_inputs(spirv) } else { spirv };
@@ -457,11 +467,6 @@ impl ShaderInterfaces for ShaderLibrary {
     }
 }
 
-/// Whether push constants tell a stage which parts of images are in use.
-fn tells_parts(macros: &Macros) -> bool {
-    macros.iter().any(|(name, _)| name == PARTS)
-}
-
 /// A compute stage says how large its workgroups are. If it doesn't, GLSL makes them one invocation each, which hardly any shader
 /// means.
 fn sized(files: &ShaderFiles, stage: &SourceFile) -> Result<(), RefusedStage> {
@@ -477,7 +482,7 @@ fn sized(files: &ShaderFiles, stage: &SourceFile) -> Result<(), RefusedStage> {
 fn invalid(finding: &Finding, files: &ShaderFiles, stage: &SourceFile) -> String {
     let what = format!("SPIR-V that Vulkan 1.3 doesn't allow: {}", finding.words);
     match &finding.place {
-        Some((file, line)) => format!("{file}:{line}: {what}"),
+        Some((file, line)) => format!("{}: {what}", text::line_of(files, stage, file, *line)),
         None => RefusedStage::shown_by(Words::First(finding.named.clone()), what).placed(files, stage),
     }
 }
@@ -493,13 +498,4 @@ fn placed_needs(needs: &[Needed], verdict: &Verdict, files: &ShaderFiles, stage:
         Verdict::None | Verdict::Valid | Verdict::Invalid(_) => None,
     };
     placed.chain(unjudged).collect()
-}
-
-/// Images that a variant samples in the layer of the eye that is drawn for.
-fn in_layers(variant: &Variant, stage: ShaderStage) -> Vec<String> {
-    if !stage.facts().draws {
-        return Vec::new();
-    }
-    let own = variant.eyes.iter().filter(|(_, form, eye)| *form == EyeForm::Layers && eye.is_none());
-    own.map(|(name, ..)| name.to_string()).collect()
 }

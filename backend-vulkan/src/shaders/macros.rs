@@ -19,11 +19,33 @@ const WHOLE: &str = "vec4(1.0, 1.0, 0.0, 0.0)";
 const LEFT_HALF: &str = "vec4(0.5, 1.0, 0.0, 0.0)";
 
 /// The macro that says how many parts push constants tell of, if they tell of any.
-pub(super) const PARTS: &str = "FRAMEWRIGHT_PARTS";
+const PARTS: &str = "FRAMEWRIGHT_PARTS";
+
+/// The macro that says that the right eye is drawn for by itself, of a stage that asks for the index of a view.
+const RIGHT_EYE: &str = "FRAMEWRIGHT_RIGHT_EYE";
+
+/// Whether a stage that asks for the index of a view is for the right eye by itself.
+pub(super) fn is_for_right_eye(macros: &Macros) -> bool {
+    macros.iter().any(|(name, _)| name == RIGHT_EYE)
+}
 
 /// How a variant draws for both eyes at once, if it does.
 pub(super) fn both_eyes(variant: &Variant) -> Option<BothEyes> {
     Some(BothEyes { source: variant.eye?, form: variant.form? })
+}
+
+/// Whether push constants tell a stage which parts of images are in use.
+pub(super) fn tells_parts(macros: &Macros) -> bool {
+    macros.iter().any(|(name, _)| name == PARTS)
+}
+
+/// Images that a variant samples in the layer of the eye that is drawn for.
+pub(super) fn in_layers(variant: &Variant, stage: ShaderStage) -> Vec<String> {
+    if !stage.facts().draws {
+        return Vec::new();
+    }
+    let own = variant.eyes.iter().filter(|(_, form, eye)| *form == EyeForm::Layers && eye.is_none());
+    own.map(|(name, ..)| name.to_string()).collect()
 }
 
 /// The macros that depend on a pass, with their values, in a stage whose file mentions such names.
@@ -60,9 +82,11 @@ pub(super) fn macros(mentioned: &MentionedNames, variant: &Variant, stage: Shade
         Some(EyeSource::One(Eye::Right)) if mentioned.eye => Some(("eye_index".to_owned(), "1".to_owned())),
         _ => None,
     };
+    let right = variant.eye == Some(EyeSource::One(Eye::Right)) && mentioned.view;
+    let of_view = right.then(|| (RIGHT_EYE.to_owned(), String::new()));
     let both = both_eyes(variant).into_iter().flat_map(|both| both.macros(stage));
     let own = textures.chain(sampled).chain(components).chain(fixed).chain(parts).chain(count);
-    own.chain(one).chain(both).collect()
+    own.chain(one).chain(of_view).chain(both).collect()
 }
 
 /// Whether a macro means something in GLSL alone.

@@ -29,6 +29,8 @@ pub(super) struct MentionedNames {
     pub(super) parts: Vec<String>,
     /// Whether the text asks which eye it draws for.
     pub(super) eye: bool,
+    /// Whether the stage asks for the index of a view.
+    pub(super) view: bool,
     /// Macros that would be defined, but for the stage's own declarations of the same names.
     pub(super) own: Vec<String>,
 }
@@ -48,6 +50,7 @@ impl MentionedNames {
         let all: Vec<&str> = std::iter::once(stage).chain(&included).map(|file| &*file.text).collect();
         let mut mentioned = MentionedNames::by(&all.join("\n"));
         mentioned.eye &= eye;
+        mentioned.view = std::iter::once(stage).chain(&included).any(|file| asks_for_view(&file.text));
         mentioned
     }
 
@@ -75,8 +78,14 @@ impl MentionedNames {
         let eye = words().any(|word| *word == "eye_index");
         let (adapting, optional, counted) = (behind(TEXTURE), behind(HAS), behind(COMPONENTS));
         let own = own.into_iter().map(str::to_owned).collect();
-        MentionedNames { adapting, optional, counted, parts, eye, own }
+        MentionedNames { adapting, optional, counted, parts, eye, view: false, own }
     }
+}
+
+/// Whether a text mentions the index of a view: as GLSL, HLSL and Slang, or WGSL call it. Letters of HLSL's semantics may be of any case.
+fn asks_for_view(text: &str) -> bool {
+    let names = |word: &str| ["gl_ViewIndex", "view_index"].contains(&word) || word.eq_ignore_ascii_case("SV_ViewID");
+    text::words(&text::without_comments(text)).any(names)
 }
 
 /// Words before a name that are no type: behind a qualifier the name is a type itself.

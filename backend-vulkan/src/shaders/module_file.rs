@@ -5,12 +5,13 @@
 
 use super::constants::Constants;
 use super::module::id;
+use super::module_lines::ModuleLines;
 use super::{constants, module_capabilities, module_checks, module_words, place_names, push_constants, registers};
 use crate::base::ShaderStage;
 use framewright_graph::shader::ShaderProblem;
 use rspirv::binary::Assemble;
 use rspirv::dr::{Function, Instruction, Module, Operand};
-use rspirv::spirv::{BuiltIn, Decoration, ExecutionMode, ExecutionModel, Op};
+use rspirv::spirv::{BuiltIn, Capability, Decoration, ExecutionMode, ExecutionModel, Op};
 use std::collections::{HashMap, HashSet};
 
 /// A file of SPIR-V.
@@ -50,6 +51,17 @@ impl ModuleFile {
     pub(super) fn compiled(spirv: &[u32]) -> Result<ModuleFile, String> {
         let bytes: Vec<u8> = spirv.iter().flat_map(|word| word.to_le_bytes()).collect();
         ModuleFile::read(&bytes)
+    }
+
+    /// The lines of what it was compiled of. `bytes` are those that it was read of.
+    pub(super) fn lines(&self, bytes: &[u8]) -> ModuleLines {
+        ModuleLines::of(&self.module, module_words::texts(bytes))
+    }
+
+    /// Whether it may ask for the index of a view.
+    pub(super) fn knows_views(&self) -> bool {
+        let view = Operand::Capability(Capability::MultiView);
+        self.module.capabilities.iter().any(|it| it.operands.first() == Some(&view))
     }
 
     /// Gives each resource of a pass a binding of its own, where HLSL numbers kinds of registers each from 0 on.

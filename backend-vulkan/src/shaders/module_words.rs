@@ -1,6 +1,7 @@
 //! The words of SPIR-V that others compiled, before it is read as a module.
 //!
-//! What only tells people about a module is left out, and so is what the reader of modules takes for a mistake.
+//! What only tells people about a module is left out, and so is what the reader of modules takes for a mistake. Lines stay: those that
+//! stand in extended instructions (`NonSemantic.Shader.DebugInfo.100`) become instructions of SPIR-V's own.
 
 use std::collections::{HashMap, HashSet};
 
@@ -22,6 +23,8 @@ mod op {
     pub(super) const SOURCE_CONTINUED: u32 = 2;
     pub(super) const SOURCE: u32 = 3;
     pub(super) const SOURCE_EXTENSION: u32 = 4;
+    pub(super) const STRING: u32 = 7;
+    pub(super) const LINE: u32 = 8;
     pub(super) const EXTENSION: u32 = 10;
     pub(super) const EXT_INST_IMPORT: u32 = 11;
     pub(super) const EXT_INST: u32 = 12;
@@ -30,12 +33,22 @@ mod op {
     pub(super) const SPEC_CONSTANT: u32 = 50;
     pub(super) const FUNCTION: u32 = 54;
     pub(super) const FUNCTION_END: u32 = 56;
+    pub(super) const NO_LINE: u32 = 317;
     pub(super) const MODULE_PROCESSED: u32 = 330;
     pub(super) const EXECUTION_MODE_ID: u32 = 331;
     pub(super) const DECORATE_ID: u32 = 332;
     pub(super) const EXT_INST_WITH_FORWARD_REFS: u32 = 4433;
     pub(super) const DECORATE_STRING: u32 = 5632;
     pub(super) const MEMBER_DECORATE_STRING: u32 = 5633;
+}
+
+/// Extended instructions for debuggers, and the name of their set.
+mod debug {
+    pub(super) const SET: &str = "NonSemantic.Shader.DebugInfo.100";
+    pub(super) const SOURCE: u32 = 35;
+    pub(super) const SOURCE_CONTINUED: u32 = 102;
+    pub(super) const LINE: u32 = 103;
+    pub(super) const NO_LINE: u32 = 104;
 }
 
 /// The execution modes for the size of workgroups: by numbers, and by constants.
@@ -59,11 +72,8 @@ const FOR_PEOPLE: [&str; 6] = [
 /// # Errors
 /// In words: it is no SPIR-V, is of a later version, or is cut off.
 pub(super) fn words(bytes: &[u8]) -> Result<Vec<u32>, String> {
-    let (words, rest) = bytes.as_chunks();
-    let mut words: Vec<u32> = words.iter().map(|word| u32::from_le_bytes(*word)).collect();
-    if words.first() == Some(&MAGIC.swap_bytes()) {
-        words.iter_mut().for_each(|word| *word = word.swap_bytes());
-    }
+    let (_, rest) = bytes.as_chunks::<4>();
+    let words = in_order(bytes);
     let (header, instructions) = match words.split_at_checked(HEADER) {
         Some(parts) if words[0] == MAGIC => parts,
         _ if words.first() == Some(&MAGIC) => return Err(format!("it is cut off: it has {} bytes", bytes.len())),
@@ -93,16 +103,56 @@ pub(super) fn words(bytes: &[u8]) -> Result<Vec<u32>, String> {
 
 /// The functions of entry points whose workgroups are sized by constants, each with these constants, of a file whose words are good.
 pub(super) fn sized_by_constants(bytes: &[u8]) -> Vec<(u32, Vec<u32>)> {
-    let mut words: Vec<u32> = bytes.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect();
-    if words.first() == Some(&MAGIC.swap_bytes()) {
-        words.iter_mut().for_each(|word| *word = word.swap_bytes());
-    }
+    let words = in_order(bytes);
     let all = split(words.get(HEADER..).unwrap_or_default()).unwrap_or_default();
     let sized = all.iter().filter_map(|it| match (it[0] & 0xffff, &it[1..]) {
         (op::EXECUTION_MODE_ID, [entry, mode, sizes @ ..]) if *mode == LOCAL_SIZE[1] => Some((*entry, sizes.to_vec())),
         _ => None,
     });
     sized.collect()
+}
+
+/// The words in this machine's order.
+fn in_order(bytes: &[u8]) -> Vec<u32> {
+    let mut words: Vec<u32> = bytes.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect();
+    if words.first() == Some(&MAGIC.swap_bytes()) {
+        words.iter_mut().for_each(|word| *word = word.swap_bytes());
+    }
+    words
+}
+
+/// The texts that a file whose words are good was compiled of, as far as it holds them: each with the name of its file.
+pub(super) fn texts(bytes: &[u8]) -> Vec<(String, String)> {
+    let words = in_order(bytes);
+    let all = split(words.get(HEADER..).unwrap_or_default()).unwrap_or_default();
+    let (mut strings, mut sets, mut texts): (HashMap<u32, String>, _, Vec<(String, String)>) =
+        (HashMap::new(), HashSet::new(), Vec::new());
+    let mut goes_on = false;
+    for it in all {
+        let said = |id: &u32| strings.get(id).cloned().unwrap_or_default();
+        match (it[0] & 0xffff, &it[1..]) {
+            (op::STRING, [id, name @ ..]) => _ = strings.insert(*id, text(name)),
+            (op::EXT_INST_IMPORT, [id, name @ ..]) if text(name) == debug::SET => _ = sets.insert(*id),
+            (op::SOURCE, [_, _, file, words @ ..]) => {
+                goes_on = !words.is_empty();
+                texts.extend(goes_on.then(|| (said(file), text(words))));
+            }
+            (op::EXT_INST, [_, _, set, debug::SOURCE, file, words]) if sets.contains(set) => {
+                goes_on = true;
+                texts.push((said(file), said(words)));
+            }
+            (op::SOURCE_CONTINUED, words) if goes_on => {
+                texts.last_mut().into_iter().for_each(|it| it.1 += &text(words))
+            }
+            (op::EXT_INST, [_, _, set, debug::SOURCE_CONTINUED, words]) if goes_on && sets.contains(set) => {
+                let more = said(words);
+                texts.last_mut().into_iter().for_each(|it| it.1 += &more);
+            }
+            _ => {}
+        }
+    }
+    texts.retain(|(file, text)| !file.is_empty() && !text.is_empty());
+    texts
 }
 
 /// The instructions.
@@ -124,11 +174,17 @@ fn split(mut rest: &[u32]) -> Result<Vec<&[u32]>, String> {
 /// The instructions that mean something, with the size of workgroups by numbers.
 fn without_notes(all: &[&[u32]]) -> Vec<u32> {
     let mut constants = HashMap::new();
-    let mut notes = HashSet::new();
+    let (mut notes, mut lines, mut sources) = (HashSet::new(), HashSet::new(), HashMap::new());
     for it in all {
         match (it[0] & 0xffff, &it[1..]) {
             (op::CONSTANT | op::SPEC_CONSTANT, [_, id, value]) => _ = constants.insert(*id, *value),
-            (op::EXT_INST_IMPORT, [id, name @ ..]) if text(name).starts_with("NonSemantic.") => _ = notes.insert(*id),
+            (op::EXT_INST_IMPORT, [id, name @ ..]) if text(name).starts_with("NonSemantic.") => {
+                notes.insert(*id);
+                lines.extend((text(name) == debug::SET).then_some(*id));
+            }
+            (op::EXT_INST, [_, id, set, debug::SOURCE, file, ..]) if lines.contains(set) => {
+                _ = sources.insert(*id, *file)
+            }
             _ => {}
         }
     }
@@ -140,6 +196,12 @@ fn without_notes(all: &[&[u32]]) -> Vec<u32> {
             | (op::DECORATE_ID, [_, COUNTER_BUFFER, ..]) => {}
             (op::EXTENSION, name) if FOR_PEOPLE.contains(&&*text(name)) => {}
             (op::EXT_INST_IMPORT, [id, ..]) if notes.contains(id) => {}
+            (op::EXT_INST, [_, _, set, debug::LINE, source, line, ..]) if lines.contains(set) => {
+                if let (Some(file), Some(line)) = (sources.get(source), constants.get(line)) {
+                    kept.extend([4 << 16 | op::LINE, *file, *line, 0]);
+                }
+            }
+            (op::EXT_INST, [_, _, set, debug::NO_LINE]) if lines.contains(set) => kept.push(1 << 16 | op::NO_LINE),
             (op::EXT_INST | op::EXT_INST_WITH_FORWARD_REFS, [_, _, set, ..]) if notes.contains(set) => {}
             (op::EXECUTION_MODE_ID, [entry, mode, sizes @ ..]) if *mode == LOCAL_SIZE[1] => {
                 let sizes: Option<Vec<u32>> = sizes.iter().map(|size| constants.get(size).copied()).collect();

@@ -14,7 +14,7 @@ use rspirv::spirv::{BuiltIn, Decoration, Op};
 use std::collections::HashSet;
 
 /// The number of the constant that says by how much the picture is turned.
-const ROTATION: u32 = 100;
+pub(super) const ROTATION: u32 = 100;
 
 /// The constants of `include/rotation.glsl`, from that number on. Pipelines set them by their numbers.
 const CONSTANTS: [&str; 3] = ["framewright_rotation", "framewright_turned_width", "framewright_turned_height"];

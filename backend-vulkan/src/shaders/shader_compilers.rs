@@ -175,6 +175,17 @@ impl ShaderCompilers {
         Ok(compilers)
     }
 
+    /// Whether what compiles a language knows the index of a view: DXC and slangc do, and of others it isn't known. GLSL asks for it by an
+    /// extension.
+    pub(super) fn knows_views(&self, language: Option<FileLanguage>) -> bool {
+        let of_glslang = |command: &CompilerCommand| {
+            known(&command.program).is_some_and(|known| ["glslangValidator", "glslc"].contains(&known.name))
+        };
+        language.is_none_or(|language| {
+            language != FileLanguage::Hlsl || self.of(language).is_some_and(|it| !of_glslang(it))
+        })
+    }
+
     /// Has shaders of a language compiled by a command: a program and arguments, divided by spaces; what stands in `"` is one of
     /// them.
     ///

@@ -59,15 +59,19 @@ impl StageSources {
     fn find_source(&self, file: &str) -> Result<Option<Arc<StageSource>>, ShaderProblem> {
         let path = FilePath::of_text(file);
         let (found, code) = if let Some(FileLanguage::Spirv) = FileLanguage::of_file(file) {
-            let Some((found, bytes)) = self.files.find_module(&path)? else { return Ok(None) };
+            let Some((mut found, bytes)) = self.files.find_module(&path)? else { return Ok(None) };
             let bad = |what: String| ShaderProblem::BadModule { what: format!("{}: {what}", found.shown) };
             let module = ModuleFile::read(&bytes).map_err(bad)?;
+            found.inside = module.lines(&bytes);
             (found, StageCode::Module(Box::new(module)))
         } else {
             let Some(found) = self.files.find(&path)? else { return Ok(None) };
             (found, FileLanguage::of_file(file).map_or(StageCode::Glsl, StageCode::Text))
         };
-        let mentioned = MentionedNames::by_stage(&self.files, &found);
+        let mut mentioned = MentionedNames::by_stage(&self.files, &found);
+        if let StageCode::Module(module) = &code {
+            mentioned.view = module.knows_views();
+        }
         Ok(Some(Arc::new(StageSource { found, mentioned, code })))
     }
 

@@ -72,14 +72,27 @@ impl RefusedStage {
     }
 }
 
-/// The first place, as `FILE:LINE`, where a stage's file or one that it includes has such a word outside comments.
+/// The first place, as `FILE:LINE`, where a stage's file or one that it includes has such a word outside comments. Of SPIR-V it is one of
+/// the source, as far as that is told.
 pub(super) fn place(files: &ShaderFiles, stage: &SourceFile, wanted: impl Fn(&str) -> bool) -> Option<String> {
     let line = |found: &SourceFile| {
         let text = without_comments(&found.text);
         let at = text.lines().position(|line| words(line).any(&wanted))?;
         Some(format!("{}:{}", found.shown, at + 1))
     };
-    line(stage).or_else(|| included(files, stage).iter().find_map(line))
+    line(stage).or_else(|| included(files, stage).iter().find_map(line)).or_else(|| stage.inside.place(&wanted))
+}
+
+/// A line that a module tells, as messages show it. A file of the stage's is called as everywhere, whatever the folder where a command
+/// compiled it; any other is a file that SPIR-V was compiled of.
+pub(super) fn line_of(files: &ShaderFiles, stage: &SourceFile, file: &str, line: u32) -> String {
+    let is_it = |known: &SourceFile| known.shown == file || file.ends_with(&format!("/{}", known.path.path()));
+    let all = std::iter::once(stage).map(|it| it.shown.clone()).filter(|_| is_it(stage));
+    let included = || included(files, stage).iter().find(|it| is_it(it)).map(|it| it.shown.clone());
+    match all.into_iter().next().or_else(included) {
+        Some(shown) => format!("{shown}:{line}"),
+        None => format!("{file}:{line}"),
+    }
 }
 
 /// The files that a stage's file includes, and those that they include, each once. No more than [`MAX_INCLUDES`] are looked
@@ -335,12 +348,18 @@ pub(super) fn joined(text: &str, blanks: bool) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::module_lines::ModuleLines;
     use super::*;
 
     /// How often files are read for a stage with this text, whose files hold `text` each.
     fn reads(stage: String, text: impl Fn(&str) -> String) -> usize {
-        let found =
-            |name: &str, text: String| SourceFile { path: name.into(), shown: name.to_owned(), text, once: None };
+        let found = |name: &str, text: String| SourceFile {
+            path: name.into(),
+            shown: name.to_owned(),
+            text,
+            once: None,
+            inside: ModuleLines::default(),
+        };
         let mut reads = 0;
         included_by(&found("stage.frag", stage), |_, name| {
             reads += 1;

@@ -15,3 +15,8 @@ slangc post.slang -target spirv -O0 -fvk-use-entrypoint-name -o post_slang.spv
 slangc bytes.slang -target spirv -O0 -fvk-use-entrypoint-name -o bytes_slang.spv
 dxc -spirv -fspv-target-env=vulkan1.3 -T ps_6_0 -E PSMain -Fo post_dxc.spv post.hlsl
 dxc -spirv -fspv-target-env=vulkan1.3 -T cs_6_0 -E CSCull -fspv-debug=vulkan-with-source -fspv-reflect -Zi -Fo append_dxc.spv append.hlsl
+glslangValidator -g -D -V --target-env vulkan1.3 -S frag -e PSMain -o discard_text.spv discard.hlsl
+glslangValidator -gVS -D -V --target-env vulkan1.3 -S frag -e PSMain -o discard_gvs.spv discard.hlsl
+dxc -spirv -fspv-target-env=vulkan1.3 -T ps_6_0 -E PSMain -Zi -Fo discard_dxc.spv discard.hlsl
+dxc -spirv -fspv-target-env=vulkan1.3 -T ps_6_0 -E PSMain -fspv-debug=vulkan -Fo discard_dxc_set.spv discard.hlsl
+slangc discard.hlsl -target spirv -O0 -g -entry PSMain -stage fragment -o discard_slang.spv

@@ -1,6 +1,7 @@
 //! SPIR-V of shaders for both eyes: none of the additions is left where there is one eye (ST-6), each look-up of an image that
 //! both eyes have in layers is given its layer, and all that is made so is valid SPIR-V.
 
+mod hlsl;
 mod layers;
 mod spirv;
 
@@ -10,7 +11,7 @@ use framewright_graph::shader::{DrawInterface, EyeSource, ShaderProblem, Variant
 use framewright_graph::vulkan::ImageShape;
 use framewright_passes::shipped::SHADERS;
 use framewright_vulkan::ShaderLibrary;
-use rspirv::dr::{Instruction, Operand};
+use rspirv::dr::{Instruction, Module, Operand};
 use rspirv::spirv::{Capability, Op, StorageClass};
 use spirv::{capabilities, disassembled, module, optimised, tool, valid};
 use std::fs;

@@ -264,6 +264,13 @@ fn a_truncated_or_garbled_module_never_ends_the_program() {
         // No vertex stage: nothing is compiled.
         _ = library.draw_shader("vertex test.spv, fragment test.spv", Draw::FullScreen, &Variant::default());
         _ = library.compute_shader("test.spv", &Variant::default());
+        let both = Variant {
+            eye: Some(EyeSource::InstanceParity),
+            form: Some(EyeForm::Layers),
+            eyes: vec![("source".into(), EyeForm::Layers, None)],
+            ..Variant::default()
+        };
+        _ = library.draw_shader("vertex test.spv, fragment test.spv", Draw::FullScreen, &both);
     };
     for (_, whole) in MODULES {
         for length in (0..whole.len()).step_by(4) {
@@ -278,18 +285,43 @@ fn a_truncated_or_garbled_module_never_ends_the_program() {
 }
 
 #[test]
-fn a_draw_for_both_eyes_by_instances_takes_no_vertex_stage_of_a_module() {
-    let variant = |source| Variant { eye: Some(source), form: Some(EyeForm::Layers), ..Variant::default() };
+fn a_draw_for_both_eyes_takes_modules_in_each_way() {
+    let ways = [
+        (EyeSource::ViewIndex, EyeForm::Layers),
+        (EyeSource::InstanceParity, EyeForm::Layers),
+        (EyeSource::InstanceParity, EyeForm::Halves),
+        (EyeSource::InstanceBit, EyeForm::Halves),
+    ];
     let name = "vertex post_hlsl_vertices.spv, fragment post_hlsl.spv";
-    let drawn = |source| of_modules(&MODULES).draw_shader(name, Draw::FullScreen, &variant(source));
-    let refused = drawn(EyeSource::InstanceParity).expect_err("refused");
-    let ShaderProblem::Unsupported { what } = refused else { panic!("{refused:?}") };
-    assert!(what.starts_with("post_hlsl_vertices.spv: it is drawn for both eyes at once"), "{what}");
-    // The device draws each eye by itself: the same for both.
-    assert!(drawn(EyeSource::ViewIndex).is_ok());
-    let sampled = Variant { eyes: vec![("source".into(), EyeForm::Layers, None)], ..variant(EyeSource::ViewIndex) };
-    let refused = of_modules(&MODULES).draw_shader("post_hlsl.spv", Draw::FullScreen, &sampled);
-    assert!(matches!(refused, Err(ShaderProblem::Unsupported { .. })), "{refused:?}");
+    for (source, form) in ways {
+        let eyes = if form == EyeForm::Layers { vec![("source".into(), form, None)] } else { Vec::new() };
+        let variant = Variant { eye: Some(source), form: Some(form), eyes, ..Variant::default() };
+        let drawn = of_modules(&MODULES).draw_shader(name, Draw::FullScreen, &variant);
+        let alone = of_modules(&MODULES).draw_shader(name, Draw::FullScreen, &Variant::default());
+        let [drawn, alone] = [drawn, alone].map(|it| it.unwrap_or_else(|problem| panic!("{problem:?}")));
+        assert_eq!((drawn.bindings, drawn.outputs), (alone.bindings, alone.outputs));
+    }
+}
+
+/// Instructions with lines of SPIR-V's own or of a set for debuggers, and modules that hold their text (DO-3).
+#[test]
+fn a_module_that_tells_lines_is_placed_in_its_source() {
+    let modules: [(&str, &[u8]); 5] = [
+        ("text.spv", include_bytes!("../../../../tests/shaders/spirv/discard_text.spv")),
+        ("text_of_set.spv", include_bytes!("../../../../tests/shaders/spirv/discard_gvs.spv")),
+        ("lines.spv", include_bytes!("../../../../tests/shaders/spirv/discard_dxc.spv")),
+        ("lines_of_set.spv", include_bytes!("../../../../tests/shaders/spirv/discard_dxc_set.spv")),
+        ("slang.spv", include_bytes!("../../../../tests/shaders/spirv/discard_slang.spv")),
+    ];
+    for (name, _) in modules {
+        let drawn = of_modules(&modules).draw_shader(name, Draw::FullScreen, &Variant::default());
+        let interface = drawn.unwrap_or_else(|problem| panic!("{name}: {problem:?}"));
+        assert!(interface.discards, "{name}");
+        assert_eq!(interface.leaves_out_at.as_deref(), Some("discard.hlsl:5"), "{name}");
+    }
+    // Without lines the module itself is all that is known.
+    let stripped = of_modules(&MODULES).draw_shader("post_stripped.spv", Draw::FullScreen, &Variant::default());
+    assert_eq!(stripped.expect("read").leaves_out_at, None);
 }
 
 #[test]

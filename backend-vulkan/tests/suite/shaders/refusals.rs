@@ -67,12 +67,6 @@ fn numbers_and_features_beyond_every_devices_are_refused() {
         let Err(ShaderProblem::Unsupported { what }) = at(17 - locations) else { panic!("{far}") };
         assert!(what.ends_with("test.vert:2: `far` at location 16: locations go up to 15"), "{what}");
     }
-    let view = format!("#extension GL_EXT_multiview : require\n{WHITE} color.x = float(gl_ViewIndex); }}");
-    assert_eq!(
-        what(&view),
-        "3: it needs SPIR-V's capability MultiView, which isn't supported: the index of a view: `eye_index` says which eye is \
-         drawn for, in each way to draw both"
-    );
     // The compiler allows 8 of each.
     let distances = |clip: u32, cull: u32| {
         let (last_clip, last_cull) = (clip - 1, cull - 1);

@@ -45,6 +45,7 @@ mod agreement;
 mod cameras;
 mod depth;
 mod eyes;
+mod languages;
 mod packed;
 mod rotated;
 
