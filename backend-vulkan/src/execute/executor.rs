@@ -120,7 +120,7 @@ impl Executor {
             gpu: gpu.clone(),
             readbacks: if options.readback { OutputReadback::all(plan, &uses)? } else { Vec::new() },
             frames: Frames::new(gpu, plan, &imports, options)?,
-            prepared: PreparedPlan::new(gpu, plan, shaders, options.debugging())?,
+            prepared: PreparedPlan::new(gpu, plan, shaders, options.preparation())?,
             sets: ProgramSets::new(shaders.draws().sets()),
             owners: Vec::new(),
             in_turn: Vec::new(),
@@ -306,7 +306,9 @@ impl Executor {
         self.ready()?;
         let number = self.frames.next();
         self.prepared.prepare_frame(&self.gpu, &self.plan, number)?;
-        self.runs.begin(&self.plan, self.first_frame + number);
+        let told = self.first_frame + number;
+        self.runs.begin(&self.plan, told);
+        self.prepared.write_frame_values(number, self.runs.clock(told))?;
         Ok(number)
     }
 

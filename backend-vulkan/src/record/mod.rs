@@ -9,7 +9,6 @@ mod custom_image;
 mod dispatch;
 mod draw_source;
 mod fragments;
-mod frame_params;
 mod frame_resources;
 mod guarded_source;
 mod observers;

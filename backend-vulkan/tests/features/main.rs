@@ -14,6 +14,7 @@ mod breadcrumbs;
 mod cadence;
 mod clear_values;
 mod compute;
+mod counted_barriers;
 mod debugging;
 mod declared_uses;
 mod depth;
