@@ -37,6 +37,9 @@ impl Executor {
     /// [`Error::Mismatch`] as of [`Executor::new`]; [`Error::OutOfMemory`], [`Error::DeviceLost`]. The executor stays with the
     /// Plan that it had.
     pub fn change(&mut self, plan: &Plan) -> Result<(), Error> {
+        let bad = |what| Error::BadPlan { what };
+        let with_owners = self.with_told_owners(plan).map_err(bad)?;
+        let plan = &*with_owners;
         if let Some(what) = self.plan.differs_beyond_values(plan) {
             return Err(Error::BadPlan { what: format!("an executor must be made anew for it: {what}") });
         }

@@ -18,6 +18,7 @@ use crate::shaders::ShaderLibrary;
 use ash::vk;
 use framewright_graph::frame::{NoTextures, Textures};
 use framewright_graph::plan::{BufferId, Plan};
+use framewright_graph::vulkan::OutsideOwner;
 use std::any::Any;
 use std::sync::Arc;
 
@@ -46,6 +47,8 @@ pub struct Executor {
     pub(super) missing: Vec<String>,
     /// Who has images and buffers of the program's that executors before this one had, and that this Plan doesn't know, by name.
     pub(super) elsewhere: Vec<(String, Ownership)>,
+    /// The outside owners that the program has told, by name.
+    pub(super) told: Vec<(String, Option<OutsideOwner>)>,
     /// Dropped after the frames and all that they use: it may destroy pipelines.
     _pipelines: PipelineHold,
     /// Texels from files, until they are uploaded.
@@ -126,6 +129,7 @@ impl Executor {
             in_turn: Vec::new(),
             missing: Vec::new(),
             elsewhere: Vec::new(),
+            told: Vec::new(),
             _pipelines: pipelines,
             plan: plan.clone(),
             first_frame: 0,

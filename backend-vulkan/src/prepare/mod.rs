@@ -25,7 +25,7 @@ mod uses;
 mod variant;
 
 pub(crate) use batches::{Batch, batches};
-pub(crate) use check::{Refusals, check, check_alone};
+pub(crate) use check::{Refusals, check, check_alone, refused_owner};
 pub(crate) use command_list::{
     Bindings, Command, CommandList, DispatchCommand, DrawCommand, DrawCounts, DrawnVertices, Faces, OwnDraw,
     ScopeCommand, WorkgroupCount,
