@@ -53,7 +53,8 @@ pub mod shaders;
 pub use ash;
 pub use base::{Blame, BrokenPromise, Cache, CachedFiles, Error, INSTALL, end_process};
 pub use commands::Texels;
-pub use execute::{Executor, ExecutorOptions, ExternalStates, OutsideOwner, ResourceState, SemaphorePoint, Submission};
+pub use execute::{Executor, ExecutorOptions, ExternalStates, ResourceState, SemaphorePoint, Submission};
+pub use framewright_graph::vulkan::OutsideOwner;
 /// The faces that draws leave out, and which side is the front.
 pub use framewright_graph::vulkan::{CullMode, FrontFace};
 pub use gpu::{

@@ -111,6 +111,16 @@ typedef enum {
     FRAMEWRIGHT_ROTATION_ROTATE270 = 3,
 } FramewrightRotation;
 
+// Who else than this device has an image or buffer between frames.
+typedef enum {
+    // Nobody: the queues of the device.
+    FRAMEWRIGHT_OWNER_DEVICE = 0,
+    // Another device of Vulkan, of the same driver (`VK_QUEUE_FAMILY_EXTERNAL`).
+    FRAMEWRIGHT_OWNER_EXTERNAL = 1,
+    // Anything else (`VK_QUEUE_FAMILY_FOREIGN_EXT`). The device must have `VK_EXT_queue_family_foreign` on.
+    FRAMEWRIGHT_OWNER_FOREIGN = 2,
+} FramewrightOwner;
+
 // A device. Any thread may use it, and several at once. It closes when it and all that was made from it are freed.
 typedef struct FramewrightDevice FramewrightDevice;
 
@@ -713,6 +723,13 @@ FramewrightStatus framewright_renderer_import_buffers(FramewrightRenderer *rende
                                                       const char *name,
                                                       const VkBuffer *buffers,
                                                       size_t count);
+
+// Says who has the external image or buffer `name` between frames, a `FramewrightOwner`, in place of what the pipeline says. Each frame then
+// takes it over before its first use, in the state `before` of `framewright_renderer_states`, and gives it back in the state `after`. The owner
+// gives and takes it by barriers of its own. It holds by name, for later Plans too. Frames in flight are waited for.
+FramewrightStatus framewright_renderer_set_owner(FramewrightRenderer *renderer,
+                                                 const char *name,
+                                                 uint32_t owner);
 
 // Tells Vulkan's image that stood for the image `name` in the last frame, for commands of the program's own.
 FramewrightStatus framewright_renderer_image(FramewrightRenderer *renderer, const char *name, VkImage *image);

@@ -259,7 +259,7 @@ impl Renderer {
         let Renderer { device, profile, options, pipeline, chosen, compiler, sets, drawn, .. } = self;
         let choices = chosen.of(&pipeline.document);
         let plan = pipeline.plan(compiler, device, profile, &choices, &options.compile)?;
-        let stays = |drawn: &&mut DrawnPlan| !anew && drawn.executor.plan().differs_beyond_values(plan).is_none();
+        let stays = |drawn: &&mut DrawnPlan| !anew && drawn.executor.differs_beyond_values(plan).is_none();
         let change = if let Some(drawn) = drawn.as_mut().filter(stays) {
             drawn.executor.change(plan)?;
             drawn.chosen.clone_from(chosen);

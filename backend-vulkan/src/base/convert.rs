@@ -3,8 +3,8 @@
 use ash::vk;
 use framewright_graph::vulkan::{
     Accesses, Aspects, BlendFactor, BlendOp, BorderColor, BufferUsage, ColorComponents, CompareOp, CullMode, FillValue,
-    Filter, Format, FrontFace, Layout, LoadOp, Numeric, PrimitiveTopology, ResolveMode, SamplerReductionMode, Stages,
-    StencilOp, StoreOp, Subresources, Usage,
+    Filter, Format, FrontFace, Layout, LoadOp, Numeric, OutsideOwner, PrimitiveTopology, ResolveMode,
+    SamplerReductionMode, Stages, StencilOp, StoreOp, Subresources, Usage,
 };
 
 pub(crate) fn format(format: Format) -> vk::Format {
@@ -223,6 +223,14 @@ pub(crate) fn topology(topology: PrimitiveTopology) -> vk::PrimitiveTopology {
         PrimitiveTopology::TriangleList => vk::PrimitiveTopology::TRIANGLE_LIST,
         PrimitiveTopology::TriangleStrip => vk::PrimitiveTopology::TRIANGLE_STRIP,
         PrimitiveTopology::TriangleFan => vk::PrimitiveTopology::TRIANGLE_FAN,
+    }
+}
+
+/// The queue family that stands for an outside owner.
+pub(crate) fn outside_family(owner: OutsideOwner) -> u32 {
+    match owner {
+        OutsideOwner::External => vk::QUEUE_FAMILY_EXTERNAL,
+        OutsideOwner::Foreign => vk::QUEUE_FAMILY_FOREIGN_EXT,
     }
 }
 

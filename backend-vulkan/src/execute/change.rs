@@ -2,17 +2,15 @@
 
 use super::executor::Executor;
 use crate::base::Error;
-use crate::memory::RawBuffer;
-use crate::prepare::{PreparedStep, Refusals, check_alone};
+use crate::prepare::{ParamBlock, PreparedStep, Refusals, check_alone};
 use ash::vk;
 use framewright_graph::plan::Plan;
-use std::sync::Arc;
 
 /// A block of parameters with other values, and the pass that gets it: the number of its step, and its own in there.
 struct ChangedParams {
     step: usize,
     pass: usize,
-    filled: Arc<RawBuffer>,
+    filled: ParamBlock,
 }
 
 /// The pipeline of a pass in a scope that has another size: the numbers of the step and of the pass in there.
@@ -39,6 +37,9 @@ impl Executor {
     /// [`Error::Mismatch`] as of [`Executor::new`]; [`Error::OutOfMemory`], [`Error::DeviceLost`]. The executor stays with the
     /// Plan that it had.
     pub fn change(&mut self, plan: &Plan) -> Result<(), Error> {
+        let bad = |what| Error::BadPlan { what };
+        let with_owners = self.with_told_owners(plan).map_err(bad)?;
+        let plan = &*with_owners;
         if let Some(what) = self.plan.differs_beyond_values(plan) {
             return Err(Error::BadPlan { what: format!("an executor must be made anew for it: {what}") });
         }
@@ -46,7 +47,8 @@ impl Executor {
         check_alone(plan, Refusals::Violations)?;
         let pipelines = self.changed_pipelines(plan)?;
         let changed = self.changed_params(plan)?;
-        if !changed.is_empty() {
+        let renewed = !changed.is_empty();
+        if renewed {
             self.frames.wait_for_all()?;
         }
         for ChangedParams { step, pass, filled } in changed {
@@ -57,7 +59,11 @@ impl Executor {
                 made[pass].set_pipeline(pipeline);
             }
         }
-        self.prepared.forget_commands();
+        if renewed {
+            self.prepared.renew_commands(plan);
+        } else {
+            self.prepared.forget_commands();
+        }
         self.runs.change(&self.plan, plan);
         self.plan.clone_from(plan);
         Ok(())
@@ -82,7 +88,7 @@ impl Executor {
 
     /// The blocks of parameters that have other values in `plan`, whose counts of workgroups are checked.
     fn changed_params(&mut self, plan: &Plan) -> Result<Vec<ChangedParams>, Error> {
-        let mut changed = Vec::new();
+        let (frames, mut changed) = (self.prepared.frames_in_flight(), Vec::new());
         for (step, (old, new)) in self.plan.steps.iter().zip(&plan.steps).enumerate() {
             let made = &mut self.prepared.steps[step];
             if let (PreparedStep::Dispatch(made), [new]) = (&*made, new.work.passes()) {
@@ -90,7 +96,7 @@ impl Executor {
             }
             let passes = old.work.passes().iter().zip(new.work.passes()).zip(made.sets()).enumerate();
             for (pass, ((_, new), sets)) in passes.filter(|(_, ((old, new), _))| old.params != new.params) {
-                let filled = sets.params_of(&self.gpu, new)?;
+                let filled = sets.params_of(&self.gpu, new, frames)?;
                 changed.extend(filled.map(|filled| ChangedParams { step, pass, filled }));
             }
         }

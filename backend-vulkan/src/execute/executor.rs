@@ -18,6 +18,7 @@ use crate::shaders::ShaderLibrary;
 use ash::vk;
 use framewright_graph::frame::{EyeForm, NoTextures, Stereo, Textures};
 use framewright_graph::plan::{BufferId, Plan};
+use framewright_graph::vulkan::OutsideOwner;
 use std::any::Any;
 use std::sync::Arc;
 
@@ -46,6 +47,8 @@ pub struct Executor {
     pub(super) missing: Vec<String>,
     /// Who has images and buffers of the program's that executors before this one had, and that this Plan doesn't know, by name.
     pub(super) elsewhere: Vec<(String, Ownership)>,
+    /// The outside owners that the program has told, by name.
+    pub(super) told: Vec<(String, Option<OutsideOwner>)>,
     /// Dropped after the frames and all that they use: it may destroy pipelines.
     _pipelines: PipelineHold,
     /// Texels from files, until they are uploaded.
@@ -120,12 +123,13 @@ impl Executor {
             gpu: gpu.clone(),
             readbacks: if options.readback { OutputReadback::all(plan, &uses)? } else { Vec::new() },
             frames: Frames::new(gpu, plan, &imports, options)?,
-            prepared: PreparedPlan::new(gpu, plan, shaders, options.debugging())?,
+            prepared: PreparedPlan::new(gpu, plan, shaders, options.preparation())?,
             sets: ProgramSets::new(shaders.draws().sets()),
             owners: Vec::new(),
             in_turn: Vec::new(),
             missing: Vec::new(),
             elsewhere: Vec::new(),
+            told: Vec::new(),
             _pipelines: pipelines,
             plan: plan.clone(),
             first_frame: 0,
@@ -317,7 +321,9 @@ impl Executor {
         self.ready()?;
         let number = self.frames.next();
         self.prepared.prepare_frame(&self.gpu, &self.plan, number)?;
-        self.runs.begin(&self.plan, self.first_frame + number);
+        let told = self.first_frame + number;
+        self.runs.begin(&self.plan, told);
+        self.prepared.write_frame_values(number, self.runs.clock(told))?;
         Ok(number)
     }
 

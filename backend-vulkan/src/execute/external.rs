@@ -1,7 +1,6 @@
 //! External images and buffers: the states in which frames find and leave them, and the choice among those that were imported.
 
 use super::executor::Executor;
-use super::outside_owner::OutsideOwner;
 use super::submission::{ExternalStates, ResourceState};
 use crate::base::Error;
 use crate::memory::create_info;
@@ -14,7 +13,7 @@ impl Executor {
     #[must_use]
     pub fn external_states(&self, name: &str) -> Option<ExternalStates> {
         let resource = self.external(name)?;
-        let Role::External { before, after } = self.plan.role(resource) else { return None };
+        let Role::External { before, after, .. } = self.plan.role(resource) else { return None };
         Some(ExternalStates { before: ResourceState::of(*before), after: ResourceState::of(*after) })
     }
 
@@ -28,35 +27,6 @@ impl Executor {
             }
             Resource::Buffer(_) => None,
         }
-    }
-
-    /// Says who has the external image or buffer `name` between frames; `None`: the queues of this device, as at first. Each frame then
-    /// takes it over before its first use, from the state `before` of [`Executor::external_states`], and gives it back in the state
-    /// `after`. What was to be left as it was, and is in the layout `UNDEFINED` before the frame, isn't taken over: its contents are lost.
-    /// The other owner gives and takes it by barriers of its own, in the same layouts. Frames in flight are waited for.
-    ///
-    /// What a frame gave away is taken back from the owner that it was given to, and what a frame kept isn't taken, also where the owner is
-    /// another one by then. What the program has imported and no frame has used yet is at the owner. An executor that
-    /// [goes on](Executor::migrate_from) from this one keeps the owner, by name, unless it was told another one.
-    ///
-    /// # Errors
-    /// [`Error::BadResource`] if there is no such external image or buffer, or the device can't take anything from that owner.
-    pub fn set_owner(&mut self, name: &str, owner: Option<OutsideOwner>) -> Result<(), Error> {
-        if owner == Some(OutsideOwner::Foreign) && !self.gpu.takes_foreign {
-            let what = format!(
-                "`{name}` can't have a foreign owner: {} {} VK_EXT_queue_family_foreign",
-                self.gpu.summary.name,
-                if self.gpu.is_adopted { "was created without" } else { "lacks" }
-            );
-            return Err(Error::BadResource { what });
-        }
-        let resource = self.external(name);
-        let unknown = || Error::BadResource { what: format!("the Plan has no external image or buffer `{name}`") };
-        let resource = resource.ok_or_else(unknown)?;
-        self.frames.wait_for_all()?;
-        let import = self.imports.iter_mut().find(|import| import.resource == resource);
-        import.ok_or_else(unknown)?.ownership.owner = owner;
-        Ok(())
     }
 
     /// Whether somebody outside of the device has what stands for it in a frame.

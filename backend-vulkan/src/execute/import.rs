@@ -1,14 +1,13 @@
 //! Imports: external images and buffers belong to the embedding program, which brings each to the state that the Plan relies
 //! on. For those that the executor made itself, it does so: before each frame, from the state that the last frame left.
 
-use super::outside_owner::OutsideOwner;
 use super::ownership::Ownership;
 use crate::base::convert;
 use crate::commands::{barriers, memory_change, state_change};
 use crate::prepare::{Frame, PhysicalResources, ResourceUses};
 use ash::vk::{self, Handle};
-use framewright_graph::plan::{Plan, Resource, Role, StepId, Wait};
-use framewright_graph::vulkan::{Layout, Sharing, Stages, State, Subresources};
+use framewright_graph::plan::{OutsideTransfer, OutsideWay, Plan, Resource, Role, StepId, Wait};
+use framewright_graph::vulkan::{Layout, OutsideOwner, Sharing, Stages, State, Subresources};
 
 /// One external image or buffer.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -20,7 +19,7 @@ pub(crate) struct Import {
     pub(crate) first: StepId,
     /// The last step that touches it.
     pub(crate) last: StepId,
-    /// Who has it between frames.
+    /// Who has it between frames: the Plan says it, and what frames before did with each that stands for it.
     pub(super) ownership: Ownership,
     /// Where another queue than the first one's used it last, in the frame before: what is to be waited for.
     pub(crate) wait: Option<Wait>,
@@ -32,14 +31,14 @@ impl Import {
         let images = plan.images.iter().map(|it| (Resource::Image(it.id), &it.role));
         let buffers = plan.buffers.iter().map(|it| (Resource::Buffer(it.id), &it.role));
         let import = |(resource, role): (Resource, &Role)| {
-            let Role::External { before, after } = role else { return None };
+            let Role::External { before, after, owner } = role else { return None };
             let span = uses.of(resource)?;
             let queue = |step: StepId| plan.steps[step.0 as usize].queue;
             let stages = Stages::ALL_COMMANDS;
             let other = queue(span.first) != queue(span.last);
             let wait = other.then_some(Wait { step: span.last, frames_ago: 1, stages });
             let (before, after) = (*before, *after);
-            let (first, last, ownership) = (span.first, span.last, Ownership::default());
+            let (first, last, ownership) = (span.first, span.last, Ownership::of(*owner));
             Some(Import { resource, before, after, first, last, ownership, wait })
         };
         images.chain(buffers).filter_map(import).collect()
@@ -95,43 +94,47 @@ impl Import {
     }
 }
 
-/// The two ways of a change of owner.
-#[derive(Clone, Copy)]
-enum Way {
-    Take,
-    Give,
-}
-
 impl Import {
-    /// Records what takes it over from its outside owner, before its first step.
+    /// Records what takes it over before its first step, as the Plan says. What a frame gave to another owner than the Plan's is taken from
+    /// that one, and what a frame kept isn't taken.
     fn record_taking(&self, frame: &Frame<'_>, commands: vk::CommandBuffer) {
-        self.change_owner(frame, commands, Way::Take);
+        let Some(holder) = self.holder(frame.physical, frame.number) else { return };
+        let planned = self.transfer(frame, self.first, OutsideWay::Acquire);
+        let left = || OutsideTransfer::acquire(self.resource, holder, frame.plan.role(self.resource));
+        if let Some(transfer) = planned.or_else(left) {
+            self.change_owner(frame, commands, &OutsideTransfer { owner: holder, ..transfer });
+        }
     }
 
-    /// Records what gives it back to its outside owner, after its last step.
+    /// Records what gives it back after its last step, as the Plan says.
     pub(crate) fn record_giving(&self, frame: &Frame<'_>, commands: vk::CommandBuffer) {
-        self.change_owner(frame, commands, Way::Give);
+        if self.is_own(frame.physical) {
+            return;
+        }
+        if let Some(transfer) = self.transfer(frame, self.last, OutsideWay::Release) {
+            self.change_owner(frame, commands, &transfer);
+        }
     }
 
-    fn change_owner(&self, frame: &Frame<'_>, commands: vk::CommandBuffer, way: Way) {
-        let outside = match way {
-            Way::Take => self.holder(frame.physical, frame.number),
-            Way::Give => self.ownership.owner.filter(|_| !self.is_own(frame.physical)),
+    /// The transfer of the Plan that a step makes.
+    fn transfer(&self, frame: &Frame<'_>, step: StepId, way: OutsideWay) -> Option<OutsideTransfer> {
+        let transfers = &frame.plan.steps[step.0 as usize].outside;
+        transfers.iter().find(|it| it.resource == self.resource && it.way == way).copied()
+    }
+
+    fn change_owner(&self, frame: &Frame<'_>, commands: vk::CommandBuffer, transfer: &OutsideTransfer) {
+        let OutsideTransfer { owner, way, state, .. } = *transfer;
+        let step = match way {
+            OutsideWay::Acquire => self.first,
+            OutsideWay::Release => self.last,
         };
-        let Some(outside) = outside else { return };
-        let (state, step) = match way {
-            Way::Take => (self.before, self.first),
-            Way::Give => (self.after, self.last),
-        };
-        let (own, outside) = (self.own_family(frame, step), outside.family());
+        let (own, outside) = (self.own_family(frame, step), convert::outside_family(owner));
         let (from, to) = match way {
-            Way::Take => (outside, own),
-            Way::Give => (own, outside),
+            OutsideWay::Acquire => (outside, own),
+            OutsideWay::Release => (own, outside),
         };
         let [src, dst] = ends(state, way);
         match self.resource {
-            // Its contents aren't needed.
-            Resource::Image(_) if state.layout == Layout::Undefined => {}
             Resource::Image(id) => {
                 let image = frame.plan.image(id);
                 let whole = Subresources::all(image.format, image.mips, image.made_layers());
@@ -187,13 +190,11 @@ fn raw(physical: &PhysicalResources, resource: Resource, frame: u64) -> u64 {
 }
 
 /// Stages and accesses of both ends of the barrier. The outside half has none of its own: semaphores order it.
-fn ends(state: State, way: Way) -> [(vk::PipelineStageFlags2, vk::AccessFlags2); 2] {
-    let all = vk::PipelineStageFlags2::ALL_COMMANDS;
-    let stages = convert::stages(state.stages);
-    let own = (if stages.is_empty() { all } else { stages }, convert::accesses(state.accesses));
+fn ends(state: State, way: OutsideWay) -> [(vk::PipelineStageFlags2, vk::AccessFlags2); 2] {
+    let own = (convert::stages(state.stages), convert::accesses(state.accesses));
     match way {
-        Way::Take => [(all, vk::AccessFlags2::NONE), own],
-        Way::Give => [own, (vk::PipelineStageFlags2::NONE, vk::AccessFlags2::NONE)],
+        OutsideWay::Acquire => [(vk::PipelineStageFlags2::ALL_COMMANDS, vk::AccessFlags2::NONE), own],
+        OutsideWay::Release => [own, (vk::PipelineStageFlags2::NONE, vk::AccessFlags2::NONE)],
     }
 }
 

@@ -2,8 +2,6 @@
 //! begin anew, in `initial_contents.rs`.
 
 use super::executor::Executor;
-use super::import::Import;
-use super::ownership::Ownership;
 use crate::base::Error;
 use crate::commands::{barriers, memory_change, state_change};
 use crate::prepare::{cycle, initial_queue};
@@ -30,7 +28,8 @@ impl Executor {
     /// [outside owners](Executor::set_owner) stay.
     ///
     /// # Errors
-    /// [`Error::BadResource`] if this executor has begun already, or is of another device; [`Error::DeviceLost`],
+    /// [`Error::BadResource`] if this executor has begun already, is of another device, or uses what has an outside owner on several queues;
+    /// [`Error::DeviceLost`],
     /// [`Error::Timeout`].
     pub fn migrate_from(&mut self, mut before: Executor) -> Result<Vec<String>, Error> {
         let bad = |what: &str| Err(Error::BadResource { what: format!("nothing can be carried over: {what}") });
@@ -43,7 +42,7 @@ impl Executor {
         before.frames.wait_for_all()?;
         self.first_frame = before.frames();
         self.missing = before.imported();
-        self.take_owners(&mut before);
+        self.take_owners(&mut before)?;
         self.sets.take_over(&before.sets);
         self.runs.go_on(&before.runs);
         if !before.initialised {
@@ -83,22 +82,6 @@ impl Executor {
         let names = imported.map(|it| self.plan.resource_name(it.resource));
         let names = names.filter(|name| self.owners.iter().all(|(shown, _)| shown != name));
         names.map(str::to_owned).chain(self.missing.iter().cloned()).collect()
-    }
-
-    /// Has the same outside owners as `before`, by name, but for those that the program told this one. Names that this Plan doesn't know are
-    /// kept for the executor after this one.
-    fn take_owners(&mut self, before: &mut Executor) {
-        let names = |it: &Import| before.plan.resource_name(it.resource).to_owned();
-        let known = before.imports.iter().map(|it| (names(it), it.ownership.clone()));
-        for (name, ownership) in known.chain(std::mem::take(&mut before.elsewhere)) {
-            let resource = self.external(&name);
-            match self.imports.iter_mut().find(|it| Some(it.resource) == resource) {
-                Some(import) if import.ownership == Ownership::default() => import.ownership = ownership,
-                Some(_) => {}
-                None if ownership == Ownership::default() => {}
-                None => self.elsewhere.push((name, ownership)),
-            }
-        }
     }
 
     /// What the frame uses of the program's, and was not imported since the executor before this one had it.

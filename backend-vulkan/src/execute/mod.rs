@@ -12,12 +12,11 @@ mod initial_contents;
 mod migrate;
 mod options;
 mod output_readback;
-mod outside_owner;
 mod ownership;
 mod promises;
 mod submission;
+mod told_owners;
 
 pub use executor::Executor;
 pub use options::ExecutorOptions;
-pub use outside_owner::OutsideOwner;
 pub use submission::{ExternalStates, ResourceState, SemaphorePoint, Submission};

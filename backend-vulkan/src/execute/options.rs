@@ -1,6 +1,6 @@
 //! How a Plan is executed.
 
-use crate::prepare::Debugging;
+use crate::prepare::{Debugging, Preparation};
 use std::time::Duration;
 
 /// How a Plan is executed.
@@ -52,9 +52,10 @@ pub struct ExecutorOptions {
 }
 
 impl ExecutorOptions {
-    /// What is recorded beside the Plan.
-    pub(super) fn debugging(&self) -> Debugging {
-        Debugging { poison: self.poison, full_barriers: self.full_barriers }
+    /// How frames are prepared.
+    pub(super) fn preparation(&self) -> Preparation {
+        let debugging = Debugging { poison: self.poison, full_barriers: self.full_barriers };
+        Preparation { debugging, frames_in_flight: self.frames_in_flight.max(1) }
     }
 }
 

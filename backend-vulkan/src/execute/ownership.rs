@@ -1,11 +1,11 @@
 //! Who has each image or buffer that stands for an external one: this device, or somebody outside.
 
-use super::outside_owner::OutsideOwner;
+use framewright_graph::vulkan::OutsideOwner;
 
 /// Who has an external image or buffer between frames, and what became of those that the program imported for it.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) struct Ownership {
-    /// Who gets it after each frame: `None`: the device keeps it.
+    /// Who gets it after each frame, as the Plan says: `None`: the device keeps it.
     pub(super) owner: Option<OutsideOwner>,
     /// Those that frames have used.
     held: Vec<HolderRecord>,
@@ -25,9 +25,26 @@ struct HolderRecord {
 }
 
 impl Ownership {
+    /// That of one that no frame has used.
+    pub(super) fn of(owner: Option<OutsideOwner>) -> Ownership {
+        Ownership { owner, held: Vec::new() }
+    }
+
     /// Who outside of the device has this one now. Before a frame has used it, it is the owner.
     pub(super) fn holder(&self, raw: u64) -> Option<OutsideOwner> {
         self.known(raw).unwrap_or(self.owner)
+    }
+
+    /// Takes over what became of those that an executor before this one had.
+    pub(super) fn take_over(&mut self, before: &Ownership) {
+        if self.held.is_empty() {
+            self.held.clone_from(&before.held);
+        }
+    }
+
+    /// Whether no frame has used any.
+    pub(super) fn is_unused(&self) -> bool {
+        self.held.is_empty()
     }
 
     /// Notes that a frame took it, if it was outside, and gave it to the owner.
@@ -66,7 +83,7 @@ mod tests {
     use super::*;
 
     fn owned_by(owner: OutsideOwner) -> Ownership {
-        Ownership { owner: Some(owner), ..Ownership::default() }
+        Ownership::of(Some(owner))
     }
 
     #[test]

@@ -22,14 +22,14 @@ pub(crate) fn fill(block: &Block, params: &[plan::Param]) -> Result<Vec<u8>, Str
 }
 
 /// The values of a block that each frame has its own of, and where they lie in it. The block was filled with these parameters.
-pub(crate) fn frame_values(block: &Block, params: &[plan::Param]) -> Vec<(u64, FrameValue)> {
+pub(crate) fn frame_values(block: &Block, params: &[plan::Param]) -> Vec<(usize, FrameValue)> {
     let mut found = Vec::new();
     for member in &block.members {
         let given = params.iter().find(|it| *it.name == *member.name);
         let visited = given.map(|given| {
             for_each_component(member, &given.value, |place, _, component| {
                 if let ParamValue::OfFrame(value) = component {
-                    found.push((place as u64, *value));
+                    found.push((place, *value));
                 }
                 Some(())
             })

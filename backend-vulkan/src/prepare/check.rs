@@ -10,7 +10,7 @@ use framewright_graph::base::amount;
 use framewright_graph::device::{ImageDescriptor, Limit, MemoryNeeds};
 use framewright_graph::plan::{Buffer, Image, Placement, Plan, Resource, Role, UsedFeature};
 use framewright_graph::verify::{Rule, Violation, verify};
-use framewright_graph::vulkan::{BufferUsage, Usage, name_of};
+use framewright_graph::vulkan::{BufferUsage, OutsideOwner, Usage, name_of};
 
 /// The Plan's own mistakes that are refused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,6 +41,14 @@ pub(crate) fn check(gpu: &Gpu, plan: &Plan, refuse: Refusals, poison: bool) -> R
     for (index, heap) in plan.heaps.iter().enumerate() {
         if heap.lazily_allocated && heap.type_bits & gpu.lazy_types() == 0 {
             return bad(format!("heap {index} is lazily allocated, and {} has no such memory", gpu.summary.name));
+        }
+    }
+    let images = plan.images.iter().map(|image| (&image.name, &image.role));
+    for (name, role) in images.chain(plan.buffers.iter().map(|buffer| (&buffer.name, &buffer.role))) {
+        if let Some(owner) = role.owner()
+            && let Some(what) = refused_owner(gpu, name, owner)
+        {
+            return bad(what);
         }
     }
     all_memory(gpu, plan)?;
@@ -180,5 +188,17 @@ fn memory(gpu: &Gpu, plan: &Plan, name: &str, place: &Placement, actual: MemoryN
         planned_for: plan.device.name.clone(),
         actual,
         planned,
+    })
+}
+
+/// Why the device takes nothing from an owner.
+pub(crate) fn refused_owner(gpu: &Gpu, name: &str, owner: OutsideOwner) -> Option<String> {
+    let lacks = owner == OutsideOwner::Foreign && !gpu.takes_foreign;
+    lacks.then(|| {
+        format!(
+            "`{name}` can't have a foreign owner: {} {} VK_EXT_queue_family_foreign",
+            gpu.summary.name,
+            if gpu.is_adopted { "was created without" } else { "lacks" }
+        )
     })
 }

@@ -7,7 +7,7 @@ use crate::base::Error;
 use crate::commands::{TransferCommand, stages_of};
 use crate::gpu::{Gpu, LocalReads};
 use ash::vk;
-use framewright_graph::frame::{FrameValue, RasterState};
+use framewright_graph::frame::RasterState;
 use framewright_graph::plan::Pass;
 use framewright_graph::vulkan::{CullMode, FrontFace};
 use std::ffi::CString;
@@ -60,21 +60,10 @@ pub(crate) enum Command {
     Dispatch(DispatchCommand),
     /// The step's custom pass.
     Custom,
-    /// Values of parameters that each frame has its own of.
-    FrameParams(Box<[FrameParam]>),
     /// What follows is left out of frames in which the step doesn't run.
     BeginWork,
     /// What follows is recorded in each frame again.
     EndWork,
-}
-
-/// A value of a parameter that each frame has its own of.
-pub(crate) struct FrameParam {
-    /// The block of the pass.
-    pub(crate) buffer: vk::Buffer,
-    /// Where it lies in the block.
-    pub(crate) offset: vk::DeviceSize,
-    pub(crate) value: FrameValue,
 }
 
 /// The begin of a rendering scope.

@@ -148,7 +148,8 @@ mod tests {
         let target = Side::Image { image: ImageId(0), range: mip(level), extent: [1; 3], layout: LAYOUT };
         let work = Work::Fill(Fill { name: None, cause: Cause::Written(None), target, value: FillValue::Bits([0; 4]) });
         let (waits, memory_barriers, releases) = (Vec::new(), Vec::new(), Vec::new());
-        Step { queue, run: Cadence::Always, waits, memory_barriers, image_barriers, work, releases }
+        let outside = Vec::new();
+        Step { queue, run: Cadence::Always, waits, memory_barriers, image_barriers, work, releases, outside }
     }
 
     fn barrier(level: u32, old_layout: Layout, ownership: Option<[Queue; 2]>) -> ImageBarrier {

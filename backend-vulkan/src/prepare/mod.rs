@@ -9,6 +9,7 @@ mod descriptions;
 mod draw_target;
 mod frame;
 mod initial_ownership;
+mod param_block;
 mod pass;
 mod pass_set;
 mod physical;
@@ -25,19 +26,20 @@ mod variant;
 mod watch_list;
 
 pub(crate) use batches::{Batch, batches};
-pub(crate) use check::{Refusals, check, check_alone};
+pub(crate) use check::{Refusals, check, check_alone, refused_owner};
 pub(crate) use command_list::{
-    Bindings, Command, CommandList, DispatchCommand, DrawCommand, DrawCounts, DrawnVertices, Faces, FrameParam,
-    OwnDraw, ScopeCommand, WorkgroupCount,
+    Bindings, Command, CommandList, DispatchCommand, DrawCommand, DrawCounts, DrawnVertices, Faces, OwnDraw,
+    ScopeCommand, WorkgroupCount,
 };
 pub(crate) use descriptions::{buffer_descriptor, cycle, descriptor, part};
 pub(crate) use draw_target::{DrawTarget, scissor, viewport};
 pub(crate) use frame::{Frame, FrameClock};
 pub(crate) use initial_ownership::{InitialOwner, initial_owners, initial_queue};
+pub(crate) use param_block::ParamBlock;
 pub(crate) use pass::{PassState, PreparedDraw};
 pub(crate) use physical::PhysicalResources;
 pub(crate) use poison::pattern;
-pub(crate) use prepared_step::{Debugging, PreparedPlan};
+pub(crate) use prepared_step::{Debugging, Preparation, PreparedPlan};
 pub(crate) use step::{PreparedStep, title};
 pub(crate) use supplied_sets::{SuppliedBlock, SuppliedSet, SuppliedSets};
 pub(crate) use textures::{StagedTexture, file_of, stage_textures};

@@ -199,7 +199,7 @@ pub(super) fn prepare_dispatch(
     gpu: &Arc<Gpu>,
     plan: &Plan,
     pass: &plan::Pass,
-    shaders: &mut ShaderLibrary,
+    (shaders, frames): (&mut ShaderLibrary, u32),
 ) -> Result<PreparedDispatch, Error> {
     let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
     let shader = shaders
@@ -216,7 +216,7 @@ pub(super) fn prepare_dispatch(
     check_needs(gpu, &shader.interface, &brought, sets, 0).map_err(mismatch)?;
     check_supplied(&shader.interface, &brought).map_err(mismatch)?;
     let size = shader.interface.workgroup_size.unwrap_or([1; 3]);
-    let sets = PassSets::new(gpu, plan, pass, &shader.interface.bindings)?;
+    let sets = PassSets::new(gpu, plan, pass, &shader.interface.bindings, frames)?;
     let supplied = SuppliedSets::new(gpu, sets.layout, &shader.interface, &brought, shaders)?;
     let descriptor = PipelineDescriptor::Compute { shader: shader.compute, layout: supplied.layout };
     let pipeline = PassPipeline::unmade(descriptor);
@@ -229,7 +229,7 @@ pub(super) fn prepare_draw(
     plan: &Plan,
     scope: &RenderScope,
     pass: &plan::Pass,
-    shaders: &mut ShaderLibrary,
+    (shaders, frames): (&mut ShaderLibrary, u32),
 ) -> Result<PreparedDraw, Error> {
     let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
     let draw = pass.draw.ok_or_else(|| mismatch("a rendering scope holds a dispatch".to_owned()))?;
@@ -295,7 +295,7 @@ pub(super) fn prepare_draw(
     if indices.is_none() {
         check_reach(plan, draw, &vertices, &vertex_buffers).map_err(mismatch)?;
     }
-    let sets = PassSets::new(gpu, plan, pass, &shader.interface.bindings)?;
+    let sets = PassSets::new(gpu, plan, pass, &shader.interface.bindings, frames)?;
     let supplied = SuppliedSets::new(gpu, sets.layout, &shader.interface, &brought, shaders)?;
     let local = local_reads(gpu, scope, pass, Some(&shader), &targets).map_err(mismatch)?;
     let formats = ScopeFormats { local, ..scope_formats(plan, scope) };

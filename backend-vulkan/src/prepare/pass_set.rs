@@ -1,13 +1,13 @@
 //! The set that belongs to a pass: its images and buffers by the shader's names, and the block `params`.
 
-use super::command_list::FrameParam;
 use super::descriptions::part;
-use super::frame::Frame;
+use super::frame::{Frame, FrameClock};
+use super::param_block::ParamBlock;
 use super::rings::RingCache;
 use crate::base::{Error, convert, stage_flags};
 use crate::gpu::{Gpu, LayoutBinding};
-use crate::memory::{Image, MemoryUse, RawBuffer, ViewShape};
-use crate::pipeline::{DescriptorSet, DescriptorTarget, parameters};
+use crate::memory::{Image, RawBuffer, ViewShape};
+use crate::pipeline::{DescriptorSet, DescriptorTarget};
 use ash::vk;
 use framewright_graph::frame::EyeForm;
 use framewright_graph::plan::{self, BindingKind, BufferId, ImageId, Plan, Resource};
@@ -22,9 +22,10 @@ pub(crate) struct PassSets {
     pub(crate) layout: vk::DescriptorSetLayout,
     /// With what is bound to each of their elements.
     bindings: Vec<(LayoutBinding, Vec<BoundResource>)>,
-    params: Option<(Block, Arc<RawBuffer>)>,
     /// `None` before the first frame.
     made: Option<RingCache<PassSet>>,
+    /// The sets point to it, so it is dropped after them.
+    params: Option<(Block, ParamBlock)>,
 }
 
 /// The block, buffer or image that is bound to one name.
@@ -43,7 +44,7 @@ struct PassSet {
 }
 
 impl PassSets {
-    /// The sets for `pass` and the bindings of its shader.
+    /// The sets for `pass` and the bindings of its shader. `frames`: how many may be in flight.
     ///
     /// # Errors
     /// [`Error::Mismatch`] where the Plan and the shader don't name the same things.
@@ -52,6 +53,7 @@ impl PassSets {
         plan: &Plan,
         pass: &plan::Pass,
         shader: &[shader::Binding],
+        frames: u32,
     ) -> Result<PassSets, Error> {
         let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
         let own = || shader.iter().filter(|it| it.set == PASS_SET);
@@ -66,7 +68,7 @@ impl PassSets {
                 shader::BindingKind::UniformBlock(block)
                     if wanted.name == PARAMS && buffer_of(pass, PARAMS).is_none() =>
                 {
-                    params = Some((block.clone(), filled(gpu, block, pass)?));
+                    params = Some((block.clone(), ParamBlock::new(gpu, block, pass, frames)?));
                     (vk::DescriptorType::UNIFORM_BUFFER, vec![BoundResource::Params])
                 }
                 shader::BindingKind::UniformBlock(_) | shader::BindingKind::StorageBlock { .. } => {
@@ -90,32 +92,45 @@ impl PassSets {
             ));
         }
         let layout = gpu.set_layout(bindings.iter().map(|(binding, _)| *binding).collect())?;
-        Ok(PassSets { layout, bindings, params, made: None })
+        Ok(PassSets { layout, bindings, made: None, params })
     }
 
     /// Sets without bindings.
     pub(crate) fn empty(gpu: &Gpu) -> Result<PassSets, Error> {
-        Ok(PassSets { layout: gpu.set_layout(Vec::new())?, bindings: Vec::new(), params: None, made: None })
+        Ok(PassSets { layout: gpu.set_layout(Vec::new())?, bindings: Vec::new(), made: None, params: None })
     }
 
     /// The block `params` with the values that `pass` has now, for [`PassSets::take`]; `None`: the shader has none.
-    pub(crate) fn params_of(&self, gpu: &Arc<Gpu>, pass: &plan::Pass) -> Result<Option<Arc<RawBuffer>>, Error> {
-        self.params.as_ref().map(|(block, _)| filled(gpu, block, pass)).transpose()
+    pub(crate) fn params_of(
+        &self,
+        gpu: &Arc<Gpu>,
+        pass: &plan::Pass,
+        frames: u32,
+    ) -> Result<Option<ParamBlock>, Error> {
+        self.params.as_ref().map(|(block, _)| ParamBlock::new(gpu, block, pass, frames)).transpose()
     }
 
-    /// The values of the block `params` of `pass` that each frame has its own of, and where each lies in which buffer.
-    pub(super) fn frame_params(&self, pass: &plan::Pass) -> Vec<FrameParam> {
-        let Some((block, filled)) = &self.params else { return Vec::new() };
-        let values = parameters::frame_values(block, &pass.params);
-        values.into_iter().map(|(offset, value)| FrameParam { buffer: filled.raw, offset, value }).collect()
+    /// Whether each frame has values of its own.
+    pub(super) fn has_frame_values(&self) -> bool {
+        self.params.as_ref().is_some_and(|(_, params)| params.has_frame_values())
+    }
+
+    /// After how many frames the same block `params` is read again.
+    pub(super) fn params_period(&self) -> u64 {
+        self.params.as_ref().map_or(1, |(_, params)| params.period())
+    }
+
+    /// Writes the values of a frame. The frame that took its place in flight before must have been waited for.
+    pub(super) fn write_frame_values(&mut self, frame: u64, clock: FrameClock) -> Result<(), Error> {
+        self.params.as_mut().map_or(Ok(()), |(_, params)| params.write(frame, clock))
     }
 
     /// Fills the sets with other parameters. Those that they had so far must not be in use.
-    pub(crate) fn take(&mut self, filled: Arc<RawBuffer>) {
+    pub(crate) fn take(&mut self, filled: ParamBlock) {
+        self.forget();
         if let Some((_, params)) = &mut self.params {
             *params = filled;
         }
-        self.forget();
     }
 
     /// Forgets all sets: other images or buffers stand for the Plan's now. None may be in use.
@@ -134,7 +149,9 @@ impl PassSets {
             BoundResource::Buffer(buffer) => Some(Resource::Buffer(buffer)),
             BoundResource::Image { image, .. } => Some(Resource::Image(image)),
         });
-        let made = self.made.get_or_insert_with(|| RingCache::new(frame.physical.period(resources)));
+        let params_period = params.map_or(1, ParamBlock::period);
+        let period = || frame.physical.period(resources).and_every(params_period);
+        let made = self.made.get_or_insert_with(|| RingCache::new(period()));
         made.prepare(frame.turn(), || PassSet::new(frame, bindings, params)).map(|made| Some(made.set.raw))
     }
 }
@@ -143,7 +160,7 @@ impl PassSet {
     fn new(
         frame: &Frame<'_>,
         bindings: &[(LayoutBinding, Vec<BoundResource>)],
-        params: Option<&Arc<RawBuffer>>,
+        params: Option<&ParamBlock>,
     ) -> Result<PassSet, Error> {
         let (mut images, mut buffers, mut targets) = (Vec::new(), Vec::new(), Vec::new());
         for (binding, elements) in bindings {
@@ -152,8 +169,7 @@ impl PassSet {
                 pointed_to.push(match bound {
                     BoundResource::Params => {
                         let Some(params) = params else { continue };
-                        buffers.push(params.clone());
-                        DescriptorTarget::Buffer(params.raw)
+                        DescriptorTarget::Buffer(params.buffer(frame.number))
                     }
                     BoundResource::Buffer(buffer) => {
                         let buffer = frame.buffer(*buffer);
@@ -174,17 +190,6 @@ impl PassSet {
         let set = DescriptorSet::new(frame.gpu, &targets)?;
         Ok(PassSet { set, _images: images, _buffers: buffers })
     }
-}
-
-/// A block `params` with the values of a pass.
-fn filled(gpu: &Arc<Gpu>, block: &Block, pass: &plan::Pass) -> Result<Arc<RawBuffer>, Error> {
-    let mismatch = |what: String| Error::Mismatch { pass: pass.name.to_string(), what };
-    let bytes = parameters::fill(block, &pass.params).map_err(mismatch)?;
-    // Frames may write values of their own into it.
-    let usage = vk::BufferUsageFlags::UNIFORM_BUFFER | vk::BufferUsageFlags::TRANSFER_DST;
-    let mut buffer = RawBuffer::new(gpu, PARAMS, bytes.len() as u64, usage, MemoryUse::Upload)?;
-    buffer.fill(&bytes)?;
-    Ok(Arc::new(buffer))
 }
 
 /// The access to the buffer that is bound to `name`.

@@ -22,17 +22,27 @@ pub(crate) struct Debugging {
     pub(crate) full_barriers: bool,
 }
 
+/// How frames are prepared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Preparation {
+    pub(crate) debugging: Debugging,
+    /// How many frames may be in flight, at least one.
+    pub(crate) frames_in_flight: u32,
+}
+
 /// Everything that a Plan needs on a device.
 pub(crate) struct PreparedPlan {
     pub(crate) physical: PhysicalResources,
     /// By step.
     pub(crate) steps: Vec<PreparedStep>,
     pub(crate) list: CommandList,
-    debugging: Debugging,
+    how: Preparation,
     /// The frame from which on all is prepared anew; `None`: the next one.
     first: Option<u64>,
     /// Images whose size changes, that outlive the frame, and that it writes.
     parts: Vec<ImageId>,
+    /// Steps whose parameters each frame has its own values of.
+    timed: Vec<usize>,
 }
 
 impl PreparedPlan {
@@ -41,25 +51,16 @@ impl PreparedPlan {
         gpu: &Arc<Gpu>,
         plan: &Plan,
         shaders: &mut ShaderLibrary,
-        debugging: Debugging,
+        how: Preparation,
     ) -> Result<PreparedPlan, Error> {
         let physical = PhysicalResources::new(gpu, plan)?;
-        let frame = Frame {
-            gpu,
-            plan,
-            physical: &physical,
-            sets: ProgramSets::NONE,
-            number: 0,
-            told: 0,
-            left_out: &[],
-            clock: FrameClock::default(),
-        };
-        let steps = prepare_steps(gpu, plan, shaders)?;
-        let list = CommandList::new(plan.steps.iter().map(|step| period(&frame, step)));
+        let steps = prepare_steps(gpu, plan, shaders, how.frames_in_flight)?;
         let outlives = |image: &&plan::Image| image.allocated.is_some() && !matches!(image.role, Role::Transient(_));
         let written = |image: &&plan::Image| plan.steps.iter().any(|step| step.work.writes(image.id));
         let parts = plan.images.iter().filter(outlives).filter(written).map(|image| image.id).collect();
-        let mut prepared = PreparedPlan { physical, steps, list, debugging, first: None, parts };
+        let (list, timed) = (CommandList::new([].into_iter()), Vec::new());
+        let mut prepared = PreparedPlan { physical, steps, list, how, first: None, parts, timed };
+        prepared.renew_commands(plan);
         prepared.prepare_frame(gpu, plan, 0)?;
         Ok(prepared)
     }
@@ -86,7 +87,7 @@ impl PreparedPlan {
             left_out: &[],
             clock: FrameClock::default(),
         };
-        let debugging = self.debugging;
+        let debugging = self.how.debugging;
         let (list, steps) = (&mut self.list, &mut self.steps);
         let mut prepare = |list: &mut CommandList, index: usize| {
             let (step, made) = (&plan.steps[index], &mut steps[index]);
@@ -102,6 +103,31 @@ impl PreparedPlan {
     pub(crate) fn forget(&mut self) {
         self.forget_commands();
         self.steps.iter_mut().flat_map(PreparedStep::sets).for_each(PassSets::forget);
+    }
+
+    /// Writes the values that frame `number` has its own of. It has a place in flight, and isn't submitted.
+    pub(crate) fn write_frame_values(&mut self, number: u64, clock: FrameClock) -> Result<(), Error> {
+        for step in &self.timed {
+            self.steps[*step].write_frame_values(number, clock)?;
+        }
+        Ok(())
+    }
+
+    /// The number of frames that may be in flight.
+    pub(crate) fn frames_in_flight(&self) -> u32 {
+        self.how.frames_in_flight
+    }
+
+    /// Forgets all commands, since parameters are other ones: each frame may have its own values of others.
+    pub(crate) fn renew_commands(&mut self, plan: &Plan) {
+        let mut timed = Vec::new();
+        for (number, step) in self.steps.iter_mut().enumerate() {
+            timed.extend(step.sets().iter().any(|sets| sets.has_frame_values()).then_some(number));
+        }
+        self.timed = timed;
+        let steps = plan.steps.iter().zip(&mut self.steps);
+        self.list = CommandList::new(steps.map(|(step, made)| period(&self.physical, step, made)));
+        self.first = None;
     }
 
     /// Forgets all commands, since the Plan has other values, or images hold other parts.

@@ -180,6 +180,11 @@ impl Period {
         Period { frames, chosen: Vec::new() }
     }
 
+    /// When, beside what it says, this many frames have passed as well.
+    pub(super) fn and_every(self, frames: u64) -> Period {
+        Period { frames: least_common_multiple(self.frames, frames), ..self }
+    }
+
     /// After how many frames, at least one.
     pub(crate) fn frames(&self) -> u64 {
         self.frames

@@ -22,9 +22,9 @@ pub(super) fn prepare_scope(
     gpu: &Arc<Gpu>,
     plan: &Plan,
     scope: &RenderScope,
-    shaders: &mut ShaderLibrary,
+    (shaders, frames): (&mut ShaderLibrary, u32),
 ) -> Result<Vec<PreparedDraw>, Error> {
-    let passes = scope.passes.iter().map(|pass| prepare_draw(gpu, plan, scope, pass, shaders));
+    let passes = scope.passes.iter().map(|pass| prepare_draw(gpu, plan, scope, pass, (shaders, frames)));
     let mut passes = passes.collect::<Result<Vec<_>, _>>()?;
     if passes.iter().any(|pass| pass.local.is_some()) {
         // A pass's locations and inputs of attachments hold for the rest of the scope: the others set them back.

@@ -1,9 +1,10 @@
 //! A step turned into objects, and into the commands that recording reads.
 
 use super::command_list::{Command, CommandList};
-use super::frame::Frame;
+use super::frame::{Frame, FrameClock};
 use super::pass::{PassPipeline, PreparedDispatch, PreparedDraw, prepare_dispatch};
 use super::pass_set::PassSets;
+use super::physical::PhysicalResources;
 use super::poison::push_poisoned_barriers;
 use super::prepared_step::Debugging;
 use super::rings::Period;
@@ -28,16 +29,16 @@ pub(crate) enum PreparedStep {
 }
 
 impl PreparedStep {
-    /// The objects of a step, as far as they are the same in all frames, but for its pipelines.
+    /// The objects of a step, as far as they are the same in all frames, but for its pipelines. `frames`: how many may be in flight.
     pub(super) fn new(
         gpu: &Arc<Gpu>,
         plan: &Plan,
         step: &Step,
-        shaders: &mut ShaderLibrary,
+        (shaders, frames): (&mut ShaderLibrary, u32),
     ) -> Result<PreparedStep, Error> {
         Ok(match &step.work {
-            Work::Render(scope) => PreparedStep::Render(prepare_scope(gpu, plan, scope, shaders)?),
-            Work::Dispatch(pass) => PreparedStep::Dispatch(prepare_dispatch(gpu, plan, pass, shaders)?),
+            Work::Render(scope) => PreparedStep::Render(prepare_scope(gpu, plan, scope, (shaders, frames))?),
+            Work::Dispatch(pass) => PreparedStep::Dispatch(prepare_dispatch(gpu, plan, pass, (shaders, frames))?),
             Work::Custom(_) | Work::Resolve(_) | Work::Copy(_) | Work::Blit(_) | Work::Fill(_) | Work::Export => {
                 PreparedStep::Plain
             }
@@ -65,9 +66,6 @@ impl PreparedStep {
             }
             let always = step.run.is_always();
             list.push_unless(always, Command::BeginWork);
-            let sets = self.sets().into_iter().zip(step.work.passes());
-            let own: Vec<_> = sets.flat_map(|(sets, pass)| sets.frame_params(pass)).collect();
-            list.push_unless(own.is_empty(), Command::FrameParams(own.into()));
             match self {
                 PreparedStep::Render(made) => {
                     let mut scopes = step.work.scope().into_iter();
@@ -116,6 +114,17 @@ impl PreparedStep {
         }
     }
 
+    /// Writes the values that a frame has its own of. No memory of the host is allocated.
+    pub(super) fn write_frame_values(&mut self, frame: u64, clock: FrameClock) -> Result<(), Error> {
+        match self {
+            PreparedStep::Render(passes) => {
+                passes.iter_mut().try_for_each(|pass| pass.sets.write_frame_values(frame, clock))
+            }
+            PreparedStep::Dispatch(pass) => pass.sets.write_frame_values(frame, clock),
+            PreparedStep::Plain => Ok(()),
+        }
+    }
+
     /// The sets of its passes.
     pub(crate) fn sets(&mut self) -> Vec<&mut PassSets> {
         match self {
@@ -127,8 +136,9 @@ impl PreparedStep {
 }
 
 /// When a step records the same again.
-pub(super) fn period(frame: &Frame<'_>, step: &Step) -> Period {
-    frame.physical.period(step.touched())
+pub(super) fn period(physical: &PhysicalResources, step: &Step, made: &mut PreparedStep) -> Period {
+    let sets = made.sets().into_iter().map(|sets| sets.params_period());
+    physical.period(step.touched()).and_every(sets.max().unwrap_or(1))
 }
 
 /// The transfer that a step is, if it is one.

@@ -8,13 +8,14 @@ use crate::shaders::ShaderLibrary;
 use framewright_graph::plan::Plan;
 use std::sync::Arc;
 
-/// The objects of a Plan's steps, as far as they are the same in all frames. The Plan must have passed [`check()`].
+/// The objects of a Plan's steps, as far as they are the same in all frames, of which `frames` may be in flight. The Plan must have passed [`check()`].
 pub(super) fn prepare_steps(
     gpu: &Arc<Gpu>,
     plan: &Plan,
     shaders: &mut ShaderLibrary,
+    frames: u32,
 ) -> Result<Vec<PreparedStep>, Error> {
-    let steps = plan.steps.iter().map(|step| PreparedStep::new(gpu, plan, step, shaders));
+    let steps = plan.steps.iter().map(|step| PreparedStep::new(gpu, plan, step, (shaders, frames)));
     let mut steps = steps.collect::<Result<Vec<_>, _>>()?;
     let with_names =
         plan.steps.iter().zip(&mut steps).flat_map(|(step, made)| step.work.passes().iter().zip(made.pipelines()));
@@ -37,6 +38,6 @@ impl Device {
     pub fn make_pipelines(&self, plan: &Plan, shaders: &mut ShaderLibrary) -> Result<(), Error> {
         check(&self.gpu, plan, Refusals::Violations, false)?;
         let _hold = PipelineHold::new(&self.gpu);
-        prepare_steps(&self.gpu, plan, shaders).map(drop)
+        prepare_steps(&self.gpu, plan, shaders, 1).map(drop)
     }
 }

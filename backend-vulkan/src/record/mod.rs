@@ -12,7 +12,6 @@ mod dispatch;
 mod draw_source;
 mod eye_target;
 mod fragments;
-mod frame_params;
 mod frame_resources;
 mod guarded_source;
 mod observers;

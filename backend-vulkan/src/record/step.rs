@@ -5,7 +5,6 @@ use super::bound_sets::bind_program_sets;
 use super::custom::CustomRecorder;
 use super::dispatch::DispatchRecorder;
 use super::draw_source::DrawSource;
-use super::frame_params;
 use super::observers::Observers;
 use super::recorded_frame::{Counts, RecordedFrame};
 use super::secondary::OpenScope;
@@ -69,7 +68,6 @@ impl<'r> Recording<'r> {
                 Command::Barriers(memory, images) => {
                     barrier_call(gpu, commands, memory.of(&list.memory), images.of(&list.images));
                 }
-                Command::FrameParams(params) => frame_params::write(gpu, commands, params, self.frame.clock),
                 Command::Transfer(transfer) => transfer.record(gpu, commands),
                 Command::BeginScope(scope) => {
                     self.observers.begin_work(self.frame, commands, step)?;

@@ -53,7 +53,7 @@ const READ: State =
     State { stages: Stages::COMPUTE_SHADER, accesses: Accesses::SHADER_STORAGE_READ, layout: Layout::Undefined };
 
 fn imported(name: &str, before: State, after: Option<State>) -> Image {
-    Image { lifetime: Lifetime::Imported { before, after }, ..Image::new(name, Format::R32_UINT, 2, 2) }
+    Image { lifetime: Lifetime::Imported { before, after, owner: None }, ..Image::new(name, Format::R32_UINT, 2, 2) }
 }
 
 /// Draws numbers into the imported image `shared`, and leaves it to be sampled.
@@ -96,7 +96,7 @@ fn each_frame_samples_what_the_program_handed_in_for_it() {
 #[test]
 fn each_frame_reads_the_buffer_that_the_program_wrote_for_it() {
     let mut small = Small::default();
-    let given = small.buffer_with("given", 3, Lifetime::Imported { before: WRITTEN, after: Some(READ) });
+    let given = small.buffer_with("given", 3, Lifetime::Imported { before: WRITTEN, after: Some(READ), owner: None });
     let doubled = small.buffer("doubled", 3);
     small.pass(dispatch("double", ONE).block("From", given, (true, false)).block("To", doubled, (false, true)));
     small.buffer_output(doubled);
@@ -167,7 +167,7 @@ fn increased() -> Frame {
         accesses: Accesses::SHADER_STORAGE_READ | Accesses::SHADER_STORAGE_WRITE,
         layout: Layout::Undefined,
     };
-    let own = small.buffer_with("own", 3, Lifetime::Imported { before: changed, after: Some(changed) });
+    let own = small.buffer_with("own", 3, Lifetime::Imported { before: changed, after: Some(changed), owner: None });
     small.pass(dispatch("increase", ONE).block("Words", own, (true, true)));
     small.frame
 }

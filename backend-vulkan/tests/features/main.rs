@@ -18,6 +18,7 @@ mod buffer_references;
 mod cadence;
 mod clear_values;
 mod compute;
+mod counted_barriers;
 mod debugging;
 mod declared_uses;
 mod depth;

@@ -1,10 +1,12 @@
 //! Images that two devices share (DO-11): memory of one that the other imports, and owners that change with each frame.
 
 use crate::adopted::{adopted_with, made_with};
+use crate::counted_barriers::{counted, counting, counting_device};
 use crate::foreign::{destroy_buffer, destroy_image, own_buffer, own_image};
 use crate::frames::{Small, Uses, dispatch, draw, frame, library, on_each_driver, planned, texels, to_bytes, words};
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{Draw, Frame, Groups, Image, Lifetime};
+use framewright_graph::plan::Plan;
 use framewright_graph::vulkan::{Accesses, Aspects, Format, Layout, Stages, State, Subresources};
 use framewright_vulkan::ash::{self, khr, vk};
 use framewright_vulkan::{Device, DeviceFeatures, Executor, ExecutorOptions, OutsideOwner};
@@ -32,7 +34,14 @@ const SHADERS: &[(&str, &str)] = &[
 ];
 
 fn shared(before: State, after: Option<State>) -> Image {
-    Image { lifetime: Lifetime::Imported { before, after }, ..Image::new("shared", Format::R32_UINT, 2, 2) }
+    shared_with(before, after, None)
+}
+
+fn shared_with(before: State, after: Option<State>, owner: Option<OutsideOwner>) -> Image {
+    Image {
+        lifetime: Lifetime::Imported { before, after, owner: None },
+        ..Image::new("shared", Format::R32_UINT, 2, 2)
+    }
 }
 
 /// Draws numbers into the image that is shared, and leaves it for the other device.
@@ -45,8 +54,13 @@ fn gives() -> Frame {
 
 /// Samples the image that the other device drew into.
 fn takes() -> Frame {
+    takes_from(None)
+}
+
+/// The same of an image that somebody has between frames, as the pipeline says.
+fn takes_from(owner: Option<OutsideOwner>) -> Frame {
     let mut small = Small::default();
-    let shared = small.image_like(shared(SHARED, Some(SHARED)));
+    let shared = small.image_like(shared_with(SHARED, Some(SHARED), owner));
     let doubled = small.image("doubled", Format::R32_UINT, [2, 2]);
     small.pass(draw("double", Draw::FullScreen).samples("source", shared, WHOLE).draws(doubled, WHOLE, None));
     small.image_output(doubled);
@@ -233,7 +247,7 @@ fn increased() -> Frame {
     let mut small = Small::default();
     let accesses = Accesses::SHADER_STORAGE_READ | Accesses::SHADER_STORAGE_WRITE;
     let changed = State { stages: Stages::COMPUTE_SHADER, accesses, layout: Layout::Undefined };
-    let own = small.buffer_with("words", 3, Lifetime::Imported { before: changed, after: Some(changed) });
+    let own = small.buffer_with("words", 3, Lifetime::Imported { before: changed, after: Some(changed), owner: None });
     small.pass(dispatch("increase", Groups::Count([1, 1, 1])).block("Words", own, (true, true)));
     small.frame
 }
@@ -259,5 +273,88 @@ fn do_11_a_buffer_has_an_outside_owner() {
         drop(executor);
         // SAFETY: the executor was dropped.
         unsafe { destroy_buffer(device, own) };
+    });
+}
+
+/// The transfers that a Plan makes in each frame.
+fn transfers(plan: &Plan) -> u64 {
+    plan.steps.iter().map(|step| step.outside.len() as u64).sum()
+}
+
+#[test]
+fn do_11_each_frame_records_the_transfers_of_its_plan_and_no_others() {
+    let _alone = counting();
+    on_each_driver(|like| {
+        let (raw, device) = counting_device(like);
+        let own = own_image(&device);
+        let [mut gives, mut takes, mut alone] =
+            [gives(), takes_from(Some(OutsideOwner::External)), takes_from(Some(OutsideOwner::External))]
+                .map(|frame| executor(&device, &frame));
+        // SAFETY: it is made as the Plans say and outlives the executors. On one device nobody takes it while it is given away.
+        unsafe {
+            gives.import_image("shared", own.0).expect("it is external");
+            takes.import_image("shared", own.0).expect("it is external");
+        }
+        let owners = |executor: &mut Executor| counted(|| frame(executor))[1];
+        assert_eq!([transfers(gives.plan()), transfers(takes.plan())], [0, 2]);
+        assert_eq!(owners(&mut gives), 0);
+        assert_eq!([(); 3].map(|()| owners(&mut takes)), [2; 3], "as the pipeline says");
+        assert_eq!(texels(&mut takes, "doubled", 0), [0, 2, 20, 22]);
+        // The program's word takes the place of the pipeline's. The first frame takes what was given away, the second keeps it.
+        takes.set_owner("shared", None).expect("it is external");
+        assert_eq!(transfers(takes.plan()), 0);
+        assert_eq!([(); 3].map(|()| owners(&mut takes)), [1, 0, 0]);
+        takes.set_owner("shared", Some(OutsideOwner::External)).expect("it is external");
+        assert_eq!(transfers(takes.plan()), 2);
+        assert_eq!([(); 3].map(|()| owners(&mut takes)), [1, 2, 2]);
+        assert_eq!(texels(&mut takes, "doubled", 0), [0, 2, 20, 22]);
+        // What the executor made itself nobody else has.
+        assert_eq!(owners(&mut alone), 0);
+        drop((gives, takes, alone));
+        // SAFETY: the executors were dropped, and nothing made from the device is left.
+        unsafe {
+            destroy_image(&device, own);
+            drop(device);
+            raw.destroy_device(None);
+        }
+    });
+}
+
+/// Values alone change, and the owner that the program told stays; another owner in the Plan is more than a value.
+#[test]
+fn do_11_an_owner_that_was_told_outlasts_a_change_of_values() {
+    on_each_driver(|device| {
+        let plan = planned(device, &takes(), &Options::default());
+        let owned = planned(device, &takes_from(Some(OutsideOwner::External)), &Options::default());
+        let mut executor =
+            Executor::new(device, &plan, &mut library(SHADERS), &ExecutorOptions::default()).expect("an executor");
+        assert!(executor.differs_beyond_values(&owned).is_some() && executor.change(&owned).is_err());
+        executor.set_owner("shared", Some(OutsideOwner::External)).expect("it is external");
+        assert_eq!(executor.plan(), &owned);
+        assert_eq!(executor.differs_beyond_values(&plan), None);
+        executor.change(&plan).expect("values alone");
+        assert_eq!(executor.plan(), &owned);
+        executor.change(&owned).expect("values alone");
+        executor.set_owner("shared", None).expect("it is external");
+        assert_eq!(executor.plan(), &plan);
+    });
+}
+
+/// A Plan with a foreign owner is refused by a device without the extension.
+#[test]
+fn do_11_a_device_refuses_owners_that_it_can_take_nothing_from() {
+    on_each_driver(|device| {
+        let plan = planned(device, &takes_from(Some(OutsideOwner::Foreign)), &Options::default());
+        let mut executor = executor(device, &takes());
+        let told = executor.set_owner("shared", Some(OutsideOwner::Foreign));
+        let made = Executor::new(device, &plan, &mut library(SHADERS), &ExecutorOptions::default());
+        match (told, made) {
+            (Ok(()), Ok(made)) => assert_eq!(made.plan(), executor.plan()),
+            (Err(told), Err(made)) => {
+                assert!(made.to_string().contains("can't have a foreign owner"), "{made}");
+                assert!(told.to_string().contains("lacks VK_EXT_queue_family_foreign"), "{told}");
+            }
+            (told, made) => panic!("{told:?}, {:?}", made.err()),
+        }
     });
 }

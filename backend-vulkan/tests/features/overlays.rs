@@ -38,7 +38,7 @@ fn over(format: Format, [width, height]: [u32; 2], picture: [u32; 2]) -> Frame {
     let lifetime = Lifetime::Persistent { initial: FillValue::Color([0.0; 4]) };
     let picture = Image { lifetime, ..Image::new("picture", shown, picture[0], picture[1]) };
     let picture = small.image_like(picture);
-    let lifetime = Lifetime::Imported { before: PRESENTED, after: Some(PRESENTED) };
+    let lifetime = Lifetime::Imported { before: PRESENTED, after: Some(PRESENTED), owner: None };
     let screen = small.image_like(Image { lifetime, ..Image::new("screen", format, width, height) });
     let pass = draw("over", Draw::FullScreen).samples("picture", picture, Subresources::WHOLE);
     let mut pass = pass.draws(screen, Subresources::WHOLE, None);
@@ -222,7 +222,7 @@ fn overlays_that_cannot_be_drawn_are_refused_before_the_frame_is_drawn() {
         let right = over(format, EXTENT, [2, 2]);
         let mut unfound = right.clone();
         let undefined = State { layout: Layout::Undefined, ..PRESENTED };
-        unfound.images[1].lifetime = Lifetime::Imported { before: undefined, after: Some(PRESENTED) };
+        unfound.images[1].lifetime = Lifetime::Imported { before: undefined, after: Some(PRESENTED), owner: None };
         unfound.passes[0].color[0].clear = Some([0.0; 4]);
         for (frame, name, expected) in [
             (over(format, [64, 50], [2, 2]), "screen", "it has 64x50 texels, and those of the window have 64x48"),

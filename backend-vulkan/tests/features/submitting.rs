@@ -50,7 +50,7 @@ const SAMPLED: State = State {
 
 fn imported(before: State) -> Image {
     Image {
-        lifetime: Lifetime::Imported { before, after: Some(SAMPLED) },
+        lifetime: Lifetime::Imported { before, after: Some(SAMPLED), owner: None },
         ..Image::new("window", Format::R32_UINT, 2, 2)
     }
 }

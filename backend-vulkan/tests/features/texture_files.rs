@@ -239,7 +239,7 @@ fn an_imported_image_of_a_compressed_format_begins_with_zeros() {
         if device.profile().format(format).is_none() {
             return;
         }
-        let lifetime = Lifetime::Imported { before: state, after: None };
+        let lifetime = Lifetime::Imported { before: state, after: None, owner: None };
         let frame = shown(Image { lifetime, mips: 3, ..Image::new("picture", format, 7, 5) }, [7, 5]);
         let (found, _) = drawn(device, &mut written(&[]).1, &frame, TEXEL);
         assert!(found.iter().all(|texel| texel[0] == 0.0), "{found:?}");

@@ -57,7 +57,7 @@ pub(crate) fn resolve_then_sample(device: &Device, first: (&str, Draw), second: 
     let usage = Usage::COLOR_ATTACHMENT | Usage::TRANSFER_DST;
     transient(&mut plan, device, "color", 4, usage, [StepId(0), StepId(0)]);
     transient(&mut plan, device, "color resolved", 1, usage | Usage::SAMPLED, [StepId(0), StepId(1)]);
-    let role = Role::External { before: NONE, after: COPIED };
+    let role = Role::External { before: NONE, after: COPIED, owner: None };
     plan.images.push(image(SCREEN, "screen", 1, Usage::COLOR_ATTACHMENT | Usage::TRANSFER_SRC, role));
 
     let resolve = AttachmentResolve {
@@ -247,5 +247,6 @@ fn step(image_barriers: Vec<ImageBarrier>, work: Work) -> Step {
         image_barriers,
         work,
         releases: Vec::new(),
+        outside: Vec::new(),
     }
 }

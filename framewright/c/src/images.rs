@@ -1,10 +1,10 @@
 //! Images of the program's own.
 
 use crate::arguments::{list, optional_output, output, text};
-use crate::renderer::{FramewrightRenderer, with};
+use crate::renderer::{FramewrightRenderer, one_of, with};
 use crate::status::{FramewrightStatus, Problem};
-use framewright::vulkan::ResourceState;
 use framewright::vulkan::ash::vk;
+use framewright::vulkan::{OutsideOwner, ResourceState};
 use std::ffi::c_char;
 
 /// The state of an image or buffer: what used it last, or uses it next.
@@ -108,6 +108,38 @@ pub unsafe extern "C" fn framewright_renderer_import_buffers(
                 return Err(Problem::Misuse("one of the `buffers` is NULL".to_owned()));
             }
             Ok(state.executor()?.import_buffers(name, buffers)?)
+        })
+    }
+}
+
+/// Who else than this device has an image or buffer between frames.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FramewrightOwner {
+    /// Nobody: the queues of the device.
+    Device = 0,
+    /// Another device of Vulkan, of the same driver (`VK_QUEUE_FAMILY_EXTERNAL`).
+    External = 1,
+    /// Anything else (`VK_QUEUE_FAMILY_FOREIGN_EXT`). The device must have `VK_EXT_queue_family_foreign` on.
+    Foreign = 2,
+}
+
+/// Says who has the external image or buffer `name` between frames, a `FramewrightOwner`, in place of what the pipeline says. Each frame then
+/// takes it over before its first use, in the state `before` of `framewright_renderer_states`, and gives it back in the state `after`. The owner
+/// gives and takes it by barriers of its own. It holds by name, for later Plans too. Frames in flight are waited for.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_set_owner(
+    renderer: *mut FramewrightRenderer,
+    name: *const c_char,
+    owner: u32,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            let name = text(name, "name")?;
+            let [external, foreign] = OutsideOwner::ALL.map(Some);
+            let owners = [None, external, foreign];
+            Ok(state.executor()?.set_owner(name, *one_of(&owners, owner, "owner")?)?)
         })
     }
 }

@@ -41,8 +41,9 @@ pub use frames::{
     framewright_renderer_submit, framewright_renderer_wait,
 };
 pub use images::{
-    FramewrightState, framewright_renderer_image, framewright_renderer_image_info, framewright_renderer_import_buffers,
-    framewright_renderer_import_images, framewright_renderer_states,
+    FramewrightOwner, FramewrightState, framewright_renderer_image, framewright_renderer_image_info,
+    framewright_renderer_import_buffers, framewright_renderer_import_images, framewright_renderer_set_owner,
+    framewright_renderer_states,
 };
 pub use last_error::{FramewrightMistake, framewright_last_error, framewright_last_mistake};
 pub use passes::{

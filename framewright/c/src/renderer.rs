@@ -441,7 +441,7 @@ pub unsafe extern "C" fn framewright_renderer_features(
 }
 
 /// The value of this number.
-fn one_of<'v, T>(all: &'v [T], number: u32, what: &str) -> Result<&'v T, Problem> {
+pub(crate) fn one_of<'v, T>(all: &'v [T], number: u32, what: &str) -> Result<&'v T, Problem> {
     let found = usize::try_from(number).ok().and_then(|number| all.get(number));
     found.ok_or_else(|| Problem::Misuse(format!("there is no `{what}` of the number {number}")))
 }

@@ -102,6 +102,7 @@ fn of_entry(plan: &Plan, entry: plan::Entry<'_>) -> Vec<Description> {
         Item::Wait(wait) => of_step.wait(wait),
         Item::MemoryBarrier(barrier) => return of_step.memory_barrier(barrier),
         Item::ImageBarrier(barrier) => of_step.image_barrier(barrier),
+        Item::Outside(transfer) => of_step.outside(transfer),
         Item::Attachment(location, attachment) => of_step.attachment(location, attachment),
         Item::Pass(pass) => of_step.pass(pass),
         Item::Resolve(attachment, resolve) => of_step.resolve(attachment, resolve),
@@ -180,7 +181,8 @@ fn memory(plan: &Plan, role: &Role) -> String {
         Role::Persistent { initial: FirstContents::File(file), .. } => {
             format!("persistent, of the file {}", code(&file.path))
         }
-        Role::External { .. } => "external".to_owned(),
+        Role::External { owner: None, .. } => "external".to_owned(),
+        Role::External { owner: Some(owner), .. } => format!("external, {} has it between frames", owner.words()),
     }
 }
 

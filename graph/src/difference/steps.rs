@@ -6,10 +6,10 @@ use crate::frame::Blend;
 use crate::plan::names::ShownText;
 use crate::plan::text::{bound, fill_value, size};
 use crate::plan::{
-    Access, Attachment, AttachmentResolve, Hazard, ImageBarrier, ImageId, MemoryBarrier, Pass, Plan, Queue, Resource,
-    Side, Step, StepId, Transfer, Wait, Work,
+    Access, Attachment, AttachmentResolve, Hazard, ImageBarrier, ImageId, MemoryBarrier, OutsideTransfer, OutsideWay,
+    Pass, Plan, Queue, Resource, Side, Step, StepId, Transfer, Wait, Work,
 };
-use crate::vulkan::{Subresources, in_plan, name_of};
+use crate::vulkan::{State, Subresources, in_plan, name_of};
 
 /// The step that an entry is or belongs to.
 #[derive(Clone, Copy)]
@@ -193,6 +193,17 @@ impl<'p> EntryStep<'p> {
             [name_of(&barrier.src_accesses), name_of(&barrier.dst_accesses)],
         ));
         Description::new(Kind::Barrier, name, fields).of_step(format!("{image}: {}", words(barrier.hazard)))
+    }
+
+    pub(super) fn outside(self, transfer: &OutsideTransfer) -> Description {
+        let resource = self.resource(transfer.resource);
+        let name = match transfer.way {
+            OutsideWay::Acquire => format!("{resource} from {}", transfer.owner.words()),
+            OutsideWay::Release => format!("{resource} to {}", transfer.owner.words()),
+        };
+        let State { stages, accesses, layout } = &transfer.state;
+        let fields = vec![("layout", name_of(layout)), ("stages", name_of(stages)), ("accesses", name_of(accesses))];
+        Description::new(Kind::Barrier, name, fields)
     }
 
     pub(super) fn memory_barrier(self, barrier: &MemoryBarrier) -> Vec<Description> {

@@ -2,7 +2,7 @@
 
 use super::{EyeForm, Resource, TextureFile};
 use crate::base::Span;
-use crate::vulkan::{FillValue, Format, Layout, ResolveMode, Rotation, Shape, State, extent_at};
+use crate::vulkan::{FillValue, Format, Layout, OutsideOwner, ResolveMode, Rotation, Shape, State, extent_at};
 use std::sync::Arc;
 
 /// The numbers of samples a texel that an image can be asked to have.
@@ -186,12 +186,22 @@ pub enum Lifetime {
         before: State,
         /// The state in which it is to be left; `None`: that of its last use, which the Plan says.
         after: Option<State>,
+        /// Who else than this device has it between frames.
+        owner: Option<OutsideOwner>,
     },
     /// An image whose contents come from a file before the first frame, and which is only sampled.
     File(Arc<TextureFile>),
 }
 
 impl Lifetime {
+    /// Who else than this device has it between frames.
+    pub(crate) fn owner(&self) -> Option<OutsideOwner> {
+        match self {
+            Lifetime::Imported { owner, .. } => *owner,
+            Lifetime::Transient | Lifetime::Persistent { .. } | Lifetime::History { .. } | Lifetime::File(_) => None,
+        }
+    }
+
     /// Whether contents of earlier frames can be found in it.
     pub(crate) fn outlives_frame(&self) -> bool {
         !matches!(self, Lifetime::Transient)

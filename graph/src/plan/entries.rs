@@ -3,7 +3,7 @@
 
 use super::{
     Attachment, AttachmentResolve, Buffer, BufferId, Cause, Change, Image, ImageBarrier, ImageId, MemoryBarrier, Note,
-    Output, Pass, Plan, Resource, SettingUsed, Step, StepId, View, Wait,
+    Output, OutsideTransfer, OutsideWay, Pass, Plan, Resource, SettingUsed, Step, StepId, View, Wait,
 };
 use serde::Serialize;
 use std::sync::Arc;
@@ -62,6 +62,16 @@ pub enum About {
     Buffer(BufferId),
 }
 
+impl About {
+    /// An image or buffer.
+    fn of(resource: Resource) -> About {
+        match resource {
+            Resource::Image(image) => About::Image(image),
+            Resource::Buffer(buffer) => About::Buffer(buffer),
+        }
+    }
+}
+
 /// An entry of a Plan.
 #[derive(Debug, Clone, Copy)]
 pub struct Entry<'p> {
@@ -88,6 +98,8 @@ pub enum Item<'p> {
     MemoryBarrier(&'p MemoryBarrier),
     /// An image barrier, before the work of a step or after it.
     ImageBarrier(&'p ImageBarrier),
+    /// What a step takes from an outside owner, or gives back to it.
+    Outside(&'p OutsideTransfer),
     /// An attachment of a rendering scope, and its number among them: the location of a colour attachment.
     Attachment(usize, &'p Attachment),
     /// A pass.
@@ -190,6 +202,7 @@ impl<'p> Entry<'p> {
             Item::Wait(wait) => (EntryKind::Wait, Some(About::Step(wait.step)), None),
             Item::MemoryBarrier(_) => (EntryKind::Barrier, None, None),
             Item::ImageBarrier(barrier) => (EntryKind::Barrier, image(barrier.image), None),
+            Item::Outside(transfer) => (EntryKind::Barrier, Some(About::of(transfer.resource)), None),
             Item::Attachment(_, attachment) => (EntryKind::Attachment, image(attachment.image), None),
             Item::Pass(pass) => (EntryKind::Pass, Some(About::Pass(pass.name.clone())), Some(&pass.cause)),
             Item::Resolve(_, resolve) => (EntryKind::Resolve, image(resolve.image), Some(&resolve.cause)),
@@ -215,7 +228,10 @@ fn items(step: &Step) -> impl Iterator<Item = Item<'_>> {
     let resolves = step.work.attachments().filter_map(|it| Some(Item::Resolve(it, it.resolve.as_ref()?)));
     let waits = step.waits.iter().map(Item::Wait);
     let memory = step.memory_barriers.iter().map(Item::MemoryBarrier);
-    let before = waits.chain(memory).chain(step.image_barriers.iter().map(Item::ImageBarrier));
+    let outside = |way| step.outside.iter().filter(move |it| it.way == way).map(Item::Outside);
+    let before = waits.chain(outside(OutsideWay::Acquire)).chain(memory);
+    let before = before.chain(step.image_barriers.iter().map(Item::ImageBarrier));
     let work = attachments.chain(step.work.passes().iter().map(Item::Pass)).chain(resolves);
-    before.chain(work).chain(step.releases.iter().map(Item::ImageBarrier))
+    let after = step.releases.iter().map(Item::ImageBarrier).chain(outside(OutsideWay::Release));
+    before.chain(work).chain(after)
 }

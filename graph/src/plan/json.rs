@@ -157,6 +157,7 @@ impl Plan {
                 step_of(part, barrier.needed_by)?;
             }
         }
+        step.outside.iter().try_for_each(|it| self.check_named(it.resource, || place("outside")))?;
         let (attachments, passes) = (step.work.attachments(), step.work.passes().iter());
         for attachment in attachments {
             image("work", attachment.image)?;

@@ -2,7 +2,7 @@
 
 use super::{BufferId, Cause, ImageId, StepId};
 use crate::frame::{EyeForm, TextureFile};
-use crate::vulkan::{BufferUsage, FillValue, Format, Rotation, Shape, Sharing, State, Usage};
+use crate::vulkan::{BufferUsage, FillValue, Format, OutsideOwner, Rotation, Shape, Sharing, State, Usage};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -108,6 +108,10 @@ pub enum Role {
         /// State that the frame leaves it in: its next user waits for these stages and accesses, with a barrier of
         /// its own, or by a semaphore if there are none.
         after: State,
+        /// Who else than this device has it between frames. Each frame takes it over and gives it back:
+        /// [`Step::outside`](super::Step::outside).
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        owner: Option<OutsideOwner>,
     },
 }
 
@@ -121,12 +125,21 @@ impl Role {
         }
     }
 
+    /// Who else than this device has it between frames.
+    #[must_use]
+    pub const fn owner(&self) -> Option<OutsideOwner> {
+        match self {
+            Role::External { owner, .. } => *owner,
+            Role::Transient(_) | Role::Persistent { .. } => None,
+        }
+    }
+
     /// The states in which a frame finds and leaves what outlives it.
     #[must_use]
     pub const fn states(&self) -> Option<[&State; 2]> {
         match self {
             Role::Transient(_) => None,
-            Role::Persistent { before, after, .. } | Role::External { before, after } => Some([before, after]),
+            Role::Persistent { before, after, .. } | Role::External { before, after, .. } => Some([before, after]),
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Steps, and the waits and barriers before each.
 
-use super::{BufferId, ImageId, Resource, StepId, Work};
+use super::{BufferId, ImageId, OutsideTransfer, Resource, StepId, Work};
 use crate::frame::Cadence;
 use crate::vulkan::{Accesses, Layout, Stages, Subresources};
 use serde::{Deserialize, Serialize};
@@ -25,6 +25,9 @@ pub struct Step {
     pub work: Work,
     /// Image barriers after the work: the first halves of queue family ownership transfers.
     pub releases: Vec<ImageBarrier>,
+    /// What it takes from outside owners, ahead of its other barriers, and gives back to them at its end; by image and buffer.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub outside: Vec<OutsideTransfer>,
 }
 
 /// A kind of queue. A device without the second or third uses the first.

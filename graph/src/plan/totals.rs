@@ -1,6 +1,6 @@
 //! Sums over a Plan.
 
-use super::{Cause, Pass, Step, Work};
+use super::{Cause, Pass, Resource, Step, Work};
 use serde::{Deserialize, Serialize};
 
 /// Sums over a Plan.
@@ -24,11 +24,11 @@ pub struct Totals {
     /// Waits for other queues.
     pub waits: u32,
     /// Calls of `vkCmdPipelineBarrier2`. Up to three per step: memory barriers and image barriers before its work, releases after it.
-    /// Local barriers of passes are not counted.
+    /// One more for each image or buffer that an outside owner gives or gets. Local barriers of passes are not counted.
     pub barrier_calls: u32,
-    /// Image barriers, released ones too.
+    /// Image barriers, released ones and those of outside owners too.
     pub image_barriers: u32,
-    /// Memory barriers.
+    /// Memory barriers, and buffer barriers of outside owners.
     pub memory_barriers: u32,
     /// Bytes of all transient images and buffers, if each had memory of its own.
     pub transient_bytes: u64,
@@ -78,8 +78,14 @@ impl Totals {
         self.waits += length(step.waits.len());
         self.image_barriers += length(step.image_barriers.len() + step.releases.len());
         self.memory_barriers += length(step.memory_barriers.len());
+        for transfer in &step.outside {
+            match transfer.resource {
+                Resource::Image(_) => self.image_barriers += 1,
+                Resource::Buffer(_) => self.memory_barriers += 1,
+            }
+        }
         let calls = [step.memory_barriers.is_empty(), step.image_barriers.is_empty(), step.releases.is_empty()];
-        self.barrier_calls += length(calls.iter().filter(|empty| !**empty).count());
+        self.barrier_calls += length(calls.iter().filter(|empty| !**empty).count() + step.outside.len());
     }
 
     fn pass(&mut self, pass: &Pass) {

@@ -3,7 +3,7 @@
 //! It shares no code with the stages that make Plans and believes none of their claims: why a barrier is there, what it
 //! waits for, whose memory it hands over. From steps, waits, barriers and placements alone it works out, for each part of
 //! each image and for each buffer, whether every access comes after what it conflicts with (`dependencies`), finds its
-//! image in the layout that it names (`walk`) and on its own queue (`ownership`), reads what was written (`contents`) and
+//! image in the layout that it names (`walk`) and on its own queue (`ownership`, and `outside_owners` of what others have between frames), reads what was written (`contents`) and
 //! has its memory to itself (`memory`); and whether the Plan is well formed at all (`structure`, `barriers`, `work`,
 //! `passes`, `redraws`, `rotation`, `transfers`). The steps are walked at least twice in a row, for what
 //! crosses frames, and as often as it takes for everything with history to have been everything (`frames`). Where steps don't run in
@@ -28,6 +28,7 @@ mod left_out;
 mod lookup;
 mod memory;
 mod names;
+mod outside_owners;
 mod owners;
 mod ownership;
 mod part_in_use;
@@ -66,6 +67,7 @@ pub fn verify(plan: &Plan) -> Vec<Violation> {
         redraws::check(plan, &mut found);
         rotation::check(plan, &mut found);
         eyes::check(plan, &mut found);
+        outside_owners::check(plan, &mut found);
         walk::walk(plan, &program, frames, &mut found);
         // Last: any other mistake makes totals wrong too.
         totals::check(plan, &mut found);

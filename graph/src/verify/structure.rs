@@ -116,7 +116,7 @@ fn check_image(plan: &Plan, image: &Image, found: &mut Findings) {
             let lazy = image.usage.contains(Usage::TRANSIENT_ATTACHMENT);
             check_placement(plan, image.id.0, placement, lazy, found);
         }
-        Role::External { before, after } => check_image_states(image, [before, after], found),
+        Role::External { before, after, .. } => check_image_states(image, [before, after], found),
         Role::Persistent { before, after, initial, .. } => {
             let fits = match initial {
                 FirstContents::Value(value) => fill_fits(image, value),
@@ -218,7 +218,7 @@ fn check_buffer(plan: &Plan, buffer: &Buffer, index: u32, found: &mut Findings) 
             }
             check_placement(plan, index, placement, false, found);
         }
-        Role::External { before, after } => check_buffer_states(index, [before, after], found),
+        Role::External { before, after, .. } => check_buffer_states(index, [before, after], found),
         Role::Persistent { before, after, initial, .. } => {
             if !matches!(initial, FirstContents::Value(FillValue::Bits(_))) {
                 wrong("has initial contents that are no bits");

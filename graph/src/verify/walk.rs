@@ -40,8 +40,9 @@ pub(super) struct Walk<'w, 'p, const Q: usize> {
 pub(super) fn walk<'p>(plan: &'p Plan, program: &Program, frames: Frames, found: &mut Findings<'p>) {
     let before = found.violations.len();
     once(plan, program, &frames, &LeftOut::default(), found);
+    let choices = LeftOut::choices(plan, &frames.circles);
     let with_gap = Frames { count: frames.count + 1, ..frames };
-    for left_out in LeftOut::choices(plan) {
+    for left_out in choices {
         // What is wrong already, where all steps run or without others, is told once.
         if found.violations.len() == before {
             once(plan, program, &with_gap, &left_out, found);

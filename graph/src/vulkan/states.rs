@@ -4,6 +4,16 @@ use super::access::StateSubject;
 use super::layout::LayoutImages;
 use super::{Accesses, Aspects, Format, Layout, Stages, State};
 
+impl State {
+    /// The state of what comes after it, or before it, if a semaphore stands between: all stages and accesses, if it names no stages.
+    pub(crate) fn or_everything(self) -> State {
+        match self.stages.is_empty() {
+            true => State { stages: Stages::ALL_COMMANDS, accesses: Accesses::MEMORY, layout: self.layout },
+            false => self,
+        }
+    }
+}
+
 /// The time at which an image or buffer is in a state.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum StateTime {

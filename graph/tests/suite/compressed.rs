@@ -131,7 +131,7 @@ fn compressed_images_are_only_sampled_and_filled_from_outside() {
         layout: Layout::ShaderReadOnlyOptimal,
     };
     let imported = |frame: &mut Frame| {
-        frame.images[0].lifetime = Lifetime::Imported { before: state, after: Some(state) };
+        frame.images[0].lifetime = Lifetime::Imported { before: state, after: Some(state), owner: None };
     };
     let mut given = frame(BC7_UNORM_BLOCK);
     imported(&mut given);

@@ -92,7 +92,7 @@ fn what_is_promised_outside_keeps_its_format() {
         |frame| {
             let (stages, accesses) = (Stages::COMPUTE_SHADER, Accesses::SHADER_STORAGE_WRITE);
             let before = State { stages, accesses, layout: Layout::General };
-            frame.images[0].lifetime = Lifetime::Imported { before, after: None };
+            frame.images[0].lifetime = Lifetime::Imported { before, after: None, owner: None };
         },
         |frame| {
             let mut output = frame.outputs[0].clone();

@@ -29,6 +29,7 @@ mod local_reads;
 mod memory_model;
 mod odd_frames;
 mod on_chip;
+mod outside_owners;
 mod plan_format;
 mod queue_costs;
 mod queues;

@@ -41,7 +41,7 @@ fn half() -> Real {
 
 /// Something that compute shaders saw last.
 fn imported(accesses: Accesses, layout: Layout) -> Lifetime {
-    Lifetime::Imported { before: State { stages: Stages::COMPUTE_SHADER, accesses, layout }, after: None }
+    Lifetime::Imported { before: State { stages: Stages::COMPUTE_SHADER, accesses, layout }, after: None, owner: None }
 }
 
 #[test]
@@ -217,7 +217,7 @@ fn a_device_without_the_feature_that_brings_a_state_is_told_of() {
     let mut frame = frame();
     let layout = Layout::ShaderReadOnlyOptimal;
     let before = State { stages: Stages::TASK_SHADER_EXT, accesses: Accesses::SHADER_SAMPLED_READ, layout };
-    frame.images[1].lifetime = Lifetime::Imported { before, after: None };
+    frame.images[1].lifetime = Lifetime::Imported { before, after: None, owner: None };
     let on = |features: Option<&[&str]>| {
         let features = features.map(|all| all.iter().map(|name| (*name).to_owned()).collect());
         let device = Profile { features, ..raster::device() };

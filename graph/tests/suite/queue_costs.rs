@@ -205,7 +205,7 @@ fn a_step_that_shares_what_is_handed_in_stays_and_says_so() {
     let mut builder = Builder::default();
     let [shadow, texture, screen] = ["shadow", "texture", "screen"].map(|name| image(&mut builder, name, 64 * MIB));
     let before = State { stages: Stages::COPY, accesses: Accesses::TRANSFER_WRITE, layout: Layout::Undefined };
-    let staging = builder.buffer("staging", Lifetime::Imported { before, after: None });
+    let staging = builder.buffer("staging", Lifetime::Imported { before, after: None, owner: None });
     builder.0.buffers[staging.0 as usize].bytes = 64 * MIB;
     builder.copy("upload", Resource::Buffer(staging), Resource::Image(texture));
     builder.draw("shadows", &[], &[], shadow);

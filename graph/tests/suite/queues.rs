@@ -302,7 +302,7 @@ fn buffers_of_several_queues_are_concurrent_and_take_no_barrier() {
 
 fn handed_in() -> Lifetime {
     let before = State { stages: Stages::COPY, accesses: Accesses::TRANSFER_WRITE, layout: Layout::Undefined };
-    Lifetime::Imported { before, after: None }
+    Lifetime::Imported { before, after: None, owner: None }
 }
 
 #[test]

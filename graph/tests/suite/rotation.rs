@@ -239,7 +239,7 @@ fn what_is_handed_in_stays_upright_where_it_is_forwarded_to_the_output() {
     wide(&mut frame);
     let plan = compiled(&frame);
     assert_eq!(turned(&plan), [("screen", [64, 96])], "one image of both names");
-    frame.images[0].lifetime = Lifetime::Imported { before: state, after: None };
+    frame.images[0].lifetime = Lifetime::Imported { before: state, after: None, owner: None };
     frame.passes[0].color[0].clear = None;
     let plan = compiled(&frame);
     assert_eq!(turned(&plan), [("screen", [64, 96])], "{}", plan.tree());
@@ -260,7 +260,7 @@ fn what_is_drawn_over_a_presented_image_is_rotated_with_it() {
         raster.full_screen("show_list").sample(list).color(screen, Blend::Alpha);
         let mut frame = raster.rotated(screen, TURN);
         wide(&mut frame);
-        frame.images[1].lifetime = Lifetime::Imported { before: presented, after: Some(presented) };
+        frame.images[1].lifetime = Lifetime::Imported { before: presented, after: Some(presented), owner: None };
         frame
     };
     let plan = compiled(&over(false));
@@ -279,7 +279,7 @@ fn depth_contents_from_outside_and_what_is_turned_already_are_refused() {
         refused(&frame).message
     };
     let state = State { stages: Stages::COPY, accesses: Accesses::TRANSFER_WRITE, layout: Layout::TransferDstOptimal };
-    let lifetime = Lifetime::Imported { before: state, after: None };
+    let lifetime = Lifetime::Imported { before: state, after: None, owner: None };
     let contents = wrong(&|frame| frame.images[2].lifetime = lifetime.clone());
     assert_eq!(
         contents,

@@ -86,11 +86,11 @@ fn lifetime(life: Life, layout: Layout, initial: impl Fn(u8) -> FillValue) -> Li
         Life::Imported => {
             // As the program's own commands leave it.
             let before = State { stages: Stages::COPY, accesses: Accesses::TRANSFER_WRITE, layout };
-            Lifetime::Imported { before, after: None }
+            Lifetime::Imported { before, after: None, owner: None }
         }
         Life::Target => {
             let before = State { stages: Stages::COPY, accesses: Accesses::empty(), layout: Layout::Undefined };
-            Lifetime::Imported { before, after: None }
+            Lifetime::Imported { before, after: None, owner: None }
         }
     }
 }

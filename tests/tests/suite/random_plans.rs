@@ -73,7 +73,7 @@ fn vary(frame: &mut Frame, seed: u64) {
         let image = ImageIndex(at);
         let leaves = leaves(at, frame);
         let declared = &mut frame.images[at as usize];
-        if let Lifetime::Imported { before, after } = &mut declared.lifetime {
+        if let Lifetime::Imported { before, after, .. } = &mut declared.lifetime {
             *before = rng.of(STATES);
             *after = rng.one_in(2).then(|| rng.of(STATES));
         }

@@ -93,7 +93,7 @@ impl ByHand {
         let objects = workload.objects.as_ref().map(|objects| ObjectBuffers::new(device, objects, &mut made));
         let steps = steps(device, workload, plan, &images, objects.as_ref(), &mut made);
         let Resource::Image(output) = plan.outputs[0].resource else { panic!("the output is an image") };
-        let Role::External { before, after } = &plan.image(output).role else { panic!("the output is external") };
+        let Role::External { before, after, .. } = &plan.image(output).role else { panic!("the output is external") };
         assert_eq!(before.layout, Layout::Undefined, "each frame draws the output anew");
         let next = if before.stages.is_empty() { Stages::ALL_COMMANDS } else { before.stages };
         let output_read = vk::MemoryBarrier2::default()

@@ -260,6 +260,7 @@ impl<'p> Explainer<'p> {
             let barriers = step.parts().filter(|entry| match entry.item {
                 Item::ImageBarrier(barrier) => names((Resource::Image(barrier.image), barrier.needed_by)),
                 Item::MemoryBarrier(barrier) => barrier.guarded().any(names),
+                Item::Outside(transfer) => names((transfer.resource, None)),
                 _ => false,
             });
             let barriers: Vec<Outline> = barriers.map(|entry| self.text.line(entry)).collect();

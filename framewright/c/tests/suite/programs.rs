@@ -136,6 +136,15 @@ fn wrong_calls_have_their_status_and_their_words() {
     succeeded(&program.run(&[], &[]));
 }
 
+/// Somebody else has an image between frames, in this Plan and the next (DO-11).
+#[test]
+fn do_11_a_program_in_c_says_who_has_an_image_between_frames() {
+    let Some(program) = program("framewright/c/tests/programs/owners.c") else { return };
+    let said = succeeded(&program.run(&[], &VALIDATION));
+    // The layer would print what it finds.
+    assert_eq!(said, "");
+}
+
 /// Passes run when the program says so, and in the frames of its numbers (DO-9).
 #[test]
 fn do_9_a_program_in_c_says_what_is_dirty_and_numbers_frames() {

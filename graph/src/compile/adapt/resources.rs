@@ -142,7 +142,7 @@ impl Adapter<'_> {
                 self.adapted.resources[first as usize].memory =
                     MemorySource::Persistent { becomes: first, initial: None };
             }
-            Lifetime::Imported { before, after } => {
+            Lifetime::Imported { before, after, .. } => {
                 let resource = &mut self.adapted.resources[first as usize];
                 (resource.memory, resource.after) = (MemorySource::Imported { before }, after);
             }

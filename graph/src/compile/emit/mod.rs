@@ -5,6 +5,7 @@ mod barriers;
 mod header;
 mod notes;
 mod outputs;
+mod owners;
 mod ownership;
 mod passes;
 mod plan;

@@ -4,7 +4,7 @@ use super::barriers::StepBarriers;
 use super::header::{changes, settings, views, with_bytes};
 use super::ownership::Transfer;
 use super::stage_results::StageResults;
-use super::{attachments, notes, outputs, ownership, passes, resources};
+use super::{attachments, notes, outputs, owners, ownership, passes, resources};
 use crate::compile::scope::Step as Grouped;
 use crate::compile::stages::Decisions;
 use crate::compile::sync::Barriers;
@@ -18,7 +18,8 @@ pub(in crate::compile) fn emit(frame: &Frame, device: &Profile, decisions: &Deci
     let results = &StageResults::new(frame, decisions);
     let steps = steps(results);
     let (images, buffers) = resources::resources(results);
-    Plan {
+    let owned = owners::owned(&images, &buffers);
+    let mut plan = Plan {
         format_version: FORMAT_VERSION,
         device: DeviceUsed { name: device.name.clone(), exact_memory: decisions.exact_memory },
         settings: settings(frame),
@@ -34,7 +35,9 @@ pub(in crate::compile) fn emit(frame: &Frame, device: &Profile, decisions: &Deci
         totals: with_bytes(&decisions.placed, Totals::count(&steps)),
         steps,
         notes: notes::notes(results),
-    }
+    };
+    owners::hand_over(&mut plan, &owned);
+    plan
 }
 
 /// Steps of the Plan.
@@ -45,7 +48,7 @@ fn steps(results: &StageResults<'_>) -> Vec<Step> {
         let (memory_barriers, image_barriers) = barriers.of(number);
         let (queue, waits, work) = (queues.queue(number), queues.waits(number), work(results, number));
         let run = cadence(results, number);
-        Step { queue, run, waits, memory_barriers, image_barriers, work, releases: Vec::new() }
+        Step { queue, run, waits, memory_barriers, image_barriers, work, releases: Vec::new(), outside: Vec::new() }
     };
     let mut steps: Vec<Step> = (0..*count).map(step).collect();
     for Transfer { from, release, to, acquire } in ownership::transfers(results) {

@@ -6,7 +6,7 @@ use crate::compile::scope::resource_name;
 use crate::compile::sync::States;
 use crate::frame::{Frame, Lifetime, Resource};
 use crate::plan::{Buffer, BufferId, Cause, ChosenFormat, FirstContents, Image, ImageId, Placement, Role};
-use crate::vulkan::{Accesses, FillValue, Layout, Rotation, Stages, State};
+use crate::vulkan::{Accesses, FillValue, Layout, OutsideOwner, Rotation, Stages, State};
 
 /// Images and buffers of the Plan.
 pub(super) fn resources(results: &StageResults<'_>) -> (Vec<Image>, Vec<Buffer>) {
@@ -84,9 +84,18 @@ fn role(
         }
         (MemorySource::Transient, Some(placement)) => Role::Transient(placement.clone()),
         (MemorySource::Transient | MemorySource::Output | MemorySource::Imported { .. }, _) => {
-            Role::External { before, after }
+            Role::External { before, after, owner: owner(frame, resource) }
         }
     }
+}
+
+/// Who outside of the device has what is imported for it.
+fn owner(frame: &Frame, resource: &PhysicalResource) -> Option<OutsideOwner> {
+    let lifetime = match resource.of {
+        Resource::Image(image) => &frame.images[image.0 as usize].lifetime,
+        Resource::Buffer(buffer) => &frame.buffers[buffer.0 as usize].lifetime,
+    };
+    lifetime.owner()
 }
 
 /// The initial contents of a resource without an initial value: its file.

@@ -116,7 +116,7 @@ fn states(frame: &Frame, device: &Profile, errors: &mut Vec<Diagnostic>) {
     let images = frame.images.iter().map(|image| (&image.name, &image.lifetime, image.span));
     let buffers = frame.buffers.iter().map(|buffer| (&buffer.name, &buffer.lifetime, buffer.span));
     let imported = images.chain(buffers).filter_map(|(name, lifetime, span)| match lifetime {
-        Lifetime::Imported { before, after } => Some((name, span, [Some(before), after.as_ref()])),
+        Lifetime::Imported { before, after, .. } => Some((name, span, [Some(before), after.as_ref()])),
         Lifetime::File(_) | Lifetime::Transient | Lifetime::Persistent { .. } | Lifetime::History { .. } => None,
     });
     let left =

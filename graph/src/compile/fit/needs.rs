@@ -128,7 +128,7 @@ fn note_states(frame: &Frame, needs: &mut [Needs]) {
         }
     };
     for (number, image) in frame.images.iter().enumerate() {
-        if let Lifetime::Imported { before, after } = &image.lifetime {
+        if let Lifetime::Imported { before, after, .. } = &image.lifetime {
             add(number, before);
             after.iter().for_each(|after| add(number, after));
         }

@@ -5,11 +5,11 @@
 //! queue, if it agrees and declares stages that are there.
 
 use super::number::QUEUES;
-use crate::compile::model::{AdaptedFrame, MemorySource, OpKind, Use};
+use crate::compile::model::{AdaptedFrame, MemorySource, OpKind, PhysicalResource, Use};
 use crate::compile::options::Options;
 use crate::compile::scope::Step;
 use crate::device::Profile;
-use crate::frame::{Frame, Work};
+use crate::frame::{Frame, Resource, Work};
 use crate::plan::Queue;
 use crate::vulkan::Stages;
 
@@ -119,10 +119,21 @@ impl EligibleQueues<'_> {
         match resource.memory {
             MemorySource::Transient => false,
             MemorySource::Output => true,
-            MemorySource::Imported { .. } => resource.image().is_some() || resource.after.is_some(),
+            MemorySource::Imported { .. } => {
+                resource.image().is_some() || resource.after.is_some() || self.has_owner(resource)
+            }
             // The reader of an output comes after one queue.
             MemorySource::Persistent { .. } => self.adapted.outputs.contains(&used.resource),
         }
+    }
+
+    /// Whether somebody else than this device has it between frames: then one queue takes it over and gives it back.
+    fn has_owner(&self, resource: &PhysicalResource) -> bool {
+        let lifetime = match resource.of {
+            Resource::Image(image) => &self.frame.images[image.0 as usize].lifetime,
+            Resource::Buffer(buffer) => &self.frame.buffers[buffer.0 as usize].lifetime,
+        };
+        lifetime.owner().is_some()
     }
 
     /// Whether a queue can wait for what was done before the frame.

@@ -24,7 +24,7 @@ fn mistake(lifetime: &Lifetime, span: Span, of: Subject<'_>) -> Option<Diagnosti
         Lifetime::Persistent { initial } | Lifetime::History { initial, .. } => {
             initial.problem(of.format).map(|what| wrong(format!("starts as {what}")))
         }
-        Lifetime::Imported { before, after } => {
+        Lifetime::Imported { before, after, .. } => {
             let after = after.and_then(|after| check_state(&after, span, of, StateTime::After));
             check_state(before, span, of, StateTime::Before).or(after)
         }

@@ -216,7 +216,7 @@ fn lifetime(
         Described::History { frames, initial: fill } => {
             Lifetime::History { frames: *frames, initial: initial(*fill, errors)? }
         }
-        Described::Imported { before, after } => {
+        Described::Imported { before, after, owner } => {
             let state = |state: Spanned<language::State>, when, errors: &mut Vec<Diagnostic>| {
                 states::lower(Spanned { span: here(state.span), ..state }, of, when, errors)
             };
@@ -225,7 +225,7 @@ fn lifetime(
                 Some(after) => state(*after, StateTime::After, errors).map(Some),
                 None => Some(None),
             };
-            Lifetime::Imported { before: before?, after: after? }
+            Lifetime::Imported { before: before?, after: after?, owner: *owner }
         }
         Described::File(file) if value.span == own => Lifetime::File(Arc::clone(file)),
         Described::File(_) => {

@@ -10,7 +10,7 @@ use crate::language::scope::{Context, FieldValue, combined};
 use crate::ron::{FieldTable, Form, Leaf, Reader, Shape, Spanned, Word, WordContents, Words};
 use crate::vulkan::access::{StateSubject, StateWord};
 use crate::vulkan::layout::LAYOUTS;
-use crate::vulkan::{self, AccessKind, Accesses, Layout, Stages};
+use crate::vulkan::{self, AccessKind, Accesses, Layout, OutsideOwner, Stages};
 use bitflags::Flags;
 
 fields! {
@@ -40,6 +40,9 @@ fields! {
         before: Leaf<'src> => STATE,
         /// The state in which it is given back; the state of its last use if left out.
         after: Option<Leaf<'src>> => STATE,
+        /// Who else than the device has it between frames: `External`, another device of Vulkan by the same driver, or `Foreign`, anything else,
+        /// as a camera or a compositor. The frame takes it over and gives it back; nobody if left out.
+        owner: Option<Leaf<'src>> => OWNER,
     }
 }
 
@@ -66,6 +69,9 @@ pub(crate) const ACCESSES: Form = Form::List(&Form::Choice("a Vulkan access", fl
 
 /// A layout of images, by Vulkan's name.
 pub(crate) const LAYOUT: Form = Form::Choice("an image layout", || layouts().map(|(name, _)| name).collect());
+
+/// An outside owner.
+const OWNER: Form = Form::Choice("an outside owner", || OutsideOwner::ALL.iter().map(|owner| owner.word()).collect());
 
 /// The form of `lifetime`.
 pub(crate) const LIFETIME: Form = Form::Words(&LIFETIMES);
@@ -161,7 +167,8 @@ impl Context<'_> {
                 let fields: ImportedFields<'_> = self.reader.inside(leaf, rest, "Imported(before: …, after: …)")?;
                 let before = state(self.reader, fields.before, of);
                 let after = optional(fields.after, |after| state(self.reader, after, of));
-                FieldValue::Constant(Lifetime::Imported { before: before?, after: after? })
+                let owner = optional(fields.owner, |owner| self.reader.choice(owner, "an outside owner", &owners()));
+                FieldValue::Constant(Lifetime::Imported { before: before?, after: after?, owner: owner? })
             }
             _ => {
                 let [other]: [Leaf<'_>; 1] = self.reader.inside(leaf, rest, "Like(\"name\")")?;
@@ -170,6 +177,11 @@ impl Context<'_> {
         };
         Some(at(leaf, lifetime))
     }
+}
+
+/// The outside owners, by their words.
+fn owners() -> [(&'static str, OutsideOwner); 2] {
+    OutsideOwner::ALL.map(|owner| (owner.word(), owner))
 }
 
 /// The layouts, by Vulkan's names.

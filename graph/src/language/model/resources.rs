@@ -6,7 +6,7 @@ use crate::base::Span;
 use crate::expression::Property;
 use crate::frame::{EyeForm, ResolveWay, Resource, TextureFile, ViewIndex};
 use crate::ron::{Name, Spanned};
-use crate::vulkan::{self, AccessKind};
+use crate::vulkan::{self, AccessKind, OutsideOwner};
 use std::sync::Arc;
 
 /// An image.
@@ -274,6 +274,8 @@ pub enum Lifetime {
         before: Spanned<State>,
         /// The state in which it is to be left, if the file asks for one.
         after: Option<Spanned<State>>,
+        /// Who else than the device has it between frames.
+        owner: Option<OutsideOwner>,
     },
     /// The contents come from a file: a texture's.
     File(Arc<TextureFile>),

@@ -58,7 +58,8 @@ fn role<'p>(role: &Role, name: &str, format: Option<Format>, next: impl Fn(u32) 
                 held(initial, format.map(|format| (format, format.aspects())))
             )
         }
-        Role::External { .. } => ": external".to_owned(),
+        Role::External { owner: None, .. } => ": external".to_owned(),
+        Role::External { owner: Some(owner), .. } => format!(": external, {} has it between frames", owner.words()),
     }
 }
 

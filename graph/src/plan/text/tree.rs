@@ -4,6 +4,7 @@ use super::changes;
 use super::decisions::Decisions;
 use super::lists::{self, totals};
 use super::outline::Outline;
+use super::words;
 use super::words::{
     bound, bytes, cause, fill_value, hazard, moved, needless_if, on_chip, samples, size, words_of_list,
 };
@@ -11,8 +12,8 @@ use crate::frame::{Blend, BufferRole, Draw, DrawList, EyeForm, Groups, Property,
 use crate::plan::names::ShownText;
 use crate::plan::{
     About, Access, Attachment, AttachmentKind, AttachmentResolve, BufferAccess, Cause, Entry, EntryKind, Image,
-    ImageBarrier, ImageId, Item, MemoryBarrier, MovedBytes, Pass, Plan, Queue, RenderScope, Resource, Side, Step,
-    StepId, Transfer, Wait, Work,
+    ImageBarrier, ImageId, Item, MemoryBarrier, MovedBytes, OutsideTransfer, OutsideWay, Pass, Plan, Queue,
+    RenderScope, Resource, Side, Step, StepId, Transfer, Wait, Work,
 };
 use crate::vulkan::{Accesses, Stages, Subresources, name_of};
 use std::fmt;
@@ -112,6 +113,7 @@ impl<'p> Text<'p> {
             Item::Wait(wait) => leaf(self.wait(wait)),
             Item::MemoryBarrier(barrier) => self.memory_barrier(entry.step, barrier),
             Item::ImageBarrier(barrier) => self.image_barrier(entry.step, barrier),
+            Item::Outside(transfer) => self.outside(transfer),
             Item::Attachment(used, attachment) => leaf(self.attachment(used, attachment)),
             Item::Pass(pass) => self.pass(pass),
             Item::Resolve(attachment, resolve) => self.resolve(attachment, resolve),
@@ -377,6 +379,26 @@ impl<'p> Text<'p> {
         let mut scopes = self.scopes((src_stages, src_accesses), (dst_stages, dst_accesses));
         scopes.extend(self.detail.verbose.then(|| Outline::detail(needless_if(barrier.hazard))));
         (format!("barrier: {part}: {layouts}{hands}, {}", hazard(&who, barrier.hazard, barrier.after)), scopes)
+    }
+
+    fn outside(&self, transfer: &OutsideTransfer) -> (String, Vec<Outline>) {
+        let OutsideTransfer { resource, owner, way, state } = transfer;
+        let cause = match resource {
+            Resource::Image(image) => self.plan.images.get(image.0 as usize).map(|image| &image.cause),
+            Resource::Buffer(buffer) => self.plan.buffers.get(buffer.0 as usize).map(|buffer| &buffer.cause),
+        };
+        let own = (state.stages, state.accesses);
+        let nothing = (Stages::empty(), Accesses::empty());
+        let (goes, scopes) = match way {
+            OutsideWay::Acquire => (format!("taken from {}", owner.words()), self.scopes(nothing, own)),
+            OutsideWay::Release => (format!("given back to {}", owner.words()), self.scopes(own, nothing)),
+        };
+        let layout = match resource {
+            Resource::Image(_) => format!(" in {}", name_of(&state.layout)),
+            Resource::Buffer(_) => String::new(),
+        };
+        let at = cause.map(words::cause).unwrap_or_default();
+        (format!("barrier: {}: {goes}{layout}{at}", self.resource(*resource)), scopes)
     }
 
     /// The user that needs a barrier of a step: a pass, with its step if that is a later one, or the step.

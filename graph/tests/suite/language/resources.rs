@@ -141,7 +141,7 @@ fn states_are_named_by_purpose_or_in_the_words_of_vulkan() {
     ))
     .lifetime
     {
-        Lifetime::Imported { before, after } => (before, after),
+        Lifetime::Imported { before, after, .. } => (before, after),
         other => panic!("{other:?}"),
     };
     let shaders = Stages::VERTEX_SHADER | Stages::FRAGMENT_SHADER | Stages::COMPUTE_SHADER;
@@ -164,7 +164,7 @@ fn states_are_named_by_purpose_or_in_the_words_of_vulkan() {
 #[test]
 fn the_host_has_written_before_a_frame_and_reads_after_it() {
     let lifetime = buffer("bytes: 8, lifetime: Imported(before: Host, after: Host)").lifetime;
-    let Lifetime::Imported { before, after: Some(after) } = lifetime else { panic!("{lifetime:?}") };
+    let Lifetime::Imported { before, after: Some(after), .. } = lifetime else { panic!("{lifetime:?}") };
     assert_eq!((before.stages, before.accesses), (Stages::HOST, Accesses::HOST_WRITE));
     assert_eq!((after.stages, after.accesses), (Stages::HOST, Accesses::HOST_READ));
     assert_eq!(after.layout, Layout::Undefined);

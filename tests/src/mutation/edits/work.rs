@@ -149,6 +149,7 @@ fn operations(plan: &Plan, number: usize, at: usize, edits: &mut Vec<Edit>) {
             image_barriers: std::mem::take(&mut step.image_barriers),
             work: Work::Resolve(transfer.clone()),
             releases: Vec::new(),
+            outside: Vec::new(),
         };
         insert(plan, number, before);
     }));
@@ -203,6 +204,7 @@ fn standalone_resolve(plan: &Plan, number: usize, edits: &mut Vec<Edit>) {
                 image_barriers: Vec::new(),
                 work: moved,
                 releases: Vec::new(),
+                outside: Vec::new(),
             };
             insert(plan, step, before);
         }));

@@ -56,7 +56,7 @@ pub(crate) fn transient(plan: &mut Plan, name: &str, place: u64) -> ImageId {
 pub(crate) fn output(plan: &mut Plan, name: &str) -> ImageId {
     let before = State { stages: Stages::empty(), accesses: Accesses::empty(), layout: Layout::Undefined };
     let after = State { stages: CS, accesses: W, layout: Layout::General };
-    let id = image(plan, name, Role::External { before, after });
+    let id = image(plan, name, Role::External { before, after, owner: None });
     plan.outputs.push(Output::new(name, Resource::Image(id)));
     id
 }

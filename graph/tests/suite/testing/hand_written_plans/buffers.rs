@@ -21,7 +21,7 @@ pub(crate) fn plan() -> Plan {
     let indices = buffer(3, "indices", 2048, storage | BufferUsage::INDEX_BUFFER, place([256, 2048], [3, 4]));
     let state = |accesses| vulkan::State { stages: Stages::COPY, accesses, layout: Layout::Undefined };
     let [before, after] = [state(Accesses::TRANSFER_READ), state(Accesses::TRANSFER_WRITE)];
-    let log = buffer(4, "log", 256, copied, Role::External { before, after });
+    let log = buffer(4, "log", 256, copied, Role::External { before, after, owner: None });
     let screen = output(0, "screen", Format::R8G8B8A8_SRGB, Usage::COLOR_ATTACHMENT | Usage::TRANSFER_SRC);
 
     let whole = |buffer: &Buffer| Side::Buffer { buffer: buffer.id, bytes: buffer.bytes };

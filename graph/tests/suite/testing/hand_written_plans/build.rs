@@ -63,6 +63,7 @@ pub(crate) fn output(id: u32, name: &str, format: Format, usage: Usage) -> Image
         role: Role::External {
             before: vulkan::State { stages: Stages::COPY, accesses: Accesses::empty(), layout: UNDEFINED },
             after: vulkan::State { stages, accesses, layout },
+            owner: None,
         },
     }
 }
@@ -197,6 +198,7 @@ pub(crate) fn step(image_barriers: Vec<ImageBarrier>, work: Work) -> Step {
         image_barriers,
         work,
         releases: Vec::new(),
+        outside: Vec::new(),
     }
 }
 
