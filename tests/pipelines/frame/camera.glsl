@@ -1,3 +1,3 @@
-// The camera for what draws with buffers of its own, as `camera_copy.comp` writes it.
-struct CameraData { mat4 world_to_clip; mat4 clip_to_world; mat4 before; vec4 place; };
+// Where the camera was in the frame before, as `camera_copy.comp` keeps it, and what the GPU culls and draws by itself.
+struct CameraData { mat4 world_to_clip; };
 struct Instance { vec4 sphere; vec4 color; };

@@ -1,9 +1,6 @@
-// The camera for what draws with buffers of its own, as `camera_copy.hlsl` writes it.
+// Where the camera was in the frame before, as `camera_copy.hlsl` keeps it, and what the GPU culls and draws by itself.
 struct CameraData {
     float4x4 world_to_clip;
-    float4x4 clip_to_world;
-    float4x4 before;
-    float4 place;
 };
 
 struct Instance {

@@ -1,10 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "include/scene.glsl"
 #include "camera.glsl"
 #include "cull.glsl"
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform sampler2D hzb_left;
-layout(set = 0, binding = 1, std140) uniform Camera { CameraData data; } camera;
+layout(set = 0, binding = 1, std140) uniform Before { CameraData data; } before;
 layout(set = 0, binding = 2, std430) readonly buffer Instances { Instance instance[]; } instances;
 layout(set = 0, binding = 3, std430) buffer List { uint number[]; } list;
 layout(set = 0, binding = 4, std430) buffer Args { uint vertices; uint count; uint first_vertex; uint first_instance; } args;
@@ -16,7 +17,7 @@ void main() {
     const uint i = gl_GlobalInvocationID.x;
     if (i == 0u) { args.vertices = 36u; }
     if (i >= params.count) { return; }
-    if (may_be_seen(camera.data.before, camera.data.place.xyz, instances.instance[i].sphere, hzb_left, hzb_left_st) || may_be_seen(camera.data.before, camera.data.place.xyz, instances.instance[i].sphere, hzb_right, hzb_right_st)) {
+    if (may_be_seen(before.data.world_to_clip, view.camera_position, instances.instance[i].sphere, hzb_left, hzb_left_st) || may_be_seen(before.data.world_to_clip, view.camera_position, instances.instance[i].sphere, hzb_right, hzb_right_st)) {
         list.number[atomicAdd(args.count, 1u)] = i;
     } else {
         rest.number[atomicAdd(rest_count.count, 1u)] = i;

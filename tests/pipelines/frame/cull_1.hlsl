@@ -1,9 +1,10 @@
+#include "scene.hlsl"
 #include "camera.hlsl"
 #include "cull.hlsl"
 
 Texture2D<float> hzb_left;
 Texture2D<float> hzb_right;
-ConstantBuffer<CameraData> camera;
+ConstantBuffer<CameraData> before;
 StructuredBuffer<Instance> instances;
 RWStructuredBuffer<uint> list;
 RWStructuredBuffer<uint> args;
@@ -18,7 +19,7 @@ void CSMain(uint3 id : SV_DispatchThreadID) {
     if (i >= count) { return; }
     float4 sphere = instances[i].sphere;
     uint slot;
-    if (may_be_seen(camera.before, camera.place.xyz, sphere, hzb_left, hzb_left_st) || may_be_seen(camera.before, camera.place.xyz, sphere, hzb_right, hzb_right_st)) {
+    if (may_be_seen(before.world_to_clip, view.sight[eye_index].camera_position, sphere, hzb_left, hzb_left_st) || may_be_seen(before.world_to_clip, view.sight[eye_index].camera_position, sphere, hzb_right, hzb_right_st)) {
         InterlockedAdd(args[1], 1, slot);
         list[slot] = i;
     } else {

@@ -1,6 +1,6 @@
+#include "scene.hlsl"
 #include "camera.hlsl"
 
-ConstantBuffer<CameraData> camera;
 StructuredBuffer<Instance> instances;
 StructuredBuffer<uint> list;
 
@@ -14,5 +14,5 @@ float3 corner_of(uint number) {
 }
 
 float4 position_of(Instance it, uint number) {
-    return mul(camera.world_to_clip, float4(it.sphere.xyz - camera.place.xyz + corner_of(number) * it.sphere.w, 1.0));
+    return mul(view.sight[eye_index].world_to_clip, float4(it.sphere.xyz - view.sight[eye_index].camera_position + corner_of(number) * it.sphere.w, 1.0));
 }

@@ -1,7 +1,6 @@
-#include "camera.hlsl"
+#include "scene.hlsl"
 #include "particle.hlsl"
 
-ConstantBuffer<CameraData> camera;
 StructuredBuffer<Particle> state;
 StructuredBuffer<uint> alive;
 
@@ -19,7 +18,7 @@ Varyings VSMain(uint number : SV_VertexID, uint instance : SV_InstanceID) {
     float2 corners[6] = { float2(-1, -1), float2(1, -1), float2(-1, 1), float2(-1, 1), float2(1, -1), float2(1, 1) };
     Varyings it;
     it.across = corners[number % 6];
-    float4 clip = mul(camera.world_to_clip, float4(state[alive[instance]].place.xyz - camera.place.xyz, 1.0));
+    float4 clip = mul(view.sight[eye_index].world_to_clip, float4(state[alive[instance]].place.xyz - view.sight[eye_index].camera_position, 1.0));
     it.position = clip + float4(it.across * float2(0.02, 0.03), 0.0, 0.0);
     return it;
 }
