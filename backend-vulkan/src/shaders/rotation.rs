@@ -6,6 +6,7 @@
 //! only partly turns.
 
 use super::module::{IndexedModule, id};
+use super::module_checks;
 use super::text::RefusedStage;
 use crate::base::{ShaderStage, StageFacts};
 use framewright_graph::shader::UnturnedPart;
@@ -45,7 +46,9 @@ pub(super) fn check_constants(module: &IndexedModule<'_>, stage: ShaderStage) ->
 pub(super) fn unturned(module: &IndexedModule<'_>, stage: ShaderStage) -> Vec<UnturnedPart> {
     let rotation = known_by(module);
     let functions = module.module.functions.iter();
-    let functions = functions.filter(|function| !code(function).any(|it| mentions(it, &rotation)));
+    let looks = |function: &&Function| code(function).any(|it| mentions(it, &rotation));
+    let knowing: HashSet<u32> = functions.clone().filter(looks).filter_map(module_checks::of).collect();
+    let functions = functions.filter(|function| !looks(function));
     let StageFacts { places_vertices, writes_attachments, .. } = stage.facts();
     if places_vertices {
         let all = module.module.functions.len();
@@ -57,7 +60,8 @@ pub(super) fn unturned(module: &IndexedModule<'_>, stage: ShaderStage) -> Vec<Un
     let places = places(module);
     let (mut reads, mut differentiates) = (false, false);
     for function in functions {
-        reads |= code(function).any(|it| mentions(it, &places) && !is_beyond_y(module, it));
+        let is_raw = |it: &Instruction| !is_beyond_y(module, it) && !is_handed_on(function, it, &knowing);
+        reads |= code(function).any(|it| mentions(it, &places) && is_raw(it));
         differentiates |= code(function).any(|it| is_sideways(it.class.opcode));
     }
     let found = [(reads, UnturnedPart::FragCoord), (differentiates, UnturnedPart::Derivatives)];
@@ -100,6 +104,14 @@ fn places(module: &IndexedModule<'_>) -> HashSet<u32> {
 fn is_beyond_y(module: &IndexedModule<'_>, it: &Instruction) -> bool {
     let component = || id(it, 1).and_then(|index| module.constant(index));
     it.class.opcode == Op::AccessChain && component().is_some_and(|component| component >= 2)
+}
+
+/// Whether an instruction loads a place that its function only hands to others, which know of the rotation: `frag_coord(position)` of
+/// `include/rotation.hlsl`, where the compiler leaves functions as they are.
+fn is_handed_on(function: &Function, it: &Instruction, knowing: &HashSet<u32>) -> bool {
+    let Some(loaded) = it.result_id.filter(|_| it.class.opcode == Op::Load) else { return false };
+    let mut uses = code(function).filter(|it| it.operands.contains(&Operand::IdRef(loaded)));
+    uses.all(|it| it.class.opcode == Op::FunctionCall && id(it, 0).is_some_and(|callee| knowing.contains(&callee)))
 }
 
 /// Whether an instruction differentiates to one side; the sum over both sides stays what it is.
