@@ -92,8 +92,7 @@ fn of_an_eye(plan: &Plan, id: StepId, accesses: &[Access], both: bool, found: &m
 
 /// What the program records outside of rendering scopes for both eyes reaches both parts, or one that is named and only sampled.
 fn of_both(plan: &Plan, id: StepId, accesses: &[Access], found: &mut Findings<'_>) {
-    let both = |access: &&Access| plan.image(access.image).eyes.is_some() && access.eye.is_none();
-    if accesses.iter().find(both).is_none() {
+    if !accesses.iter().any(|access| plan.image(access.image).eyes.is_some() && access.eye.is_none()) {
         found.structure(Some(id), None, "is recorded for both eyes, and touches nothing that holds both eyes' parts");
     }
     named_eyes(plan, id, accesses, found);

@@ -249,9 +249,8 @@ fn what_the_program_does_not_record_for_both_eyes_is_found() {
         };
         let custom = |plan: &mut Plan, change: &dyn Fn(&mut framewright_graph::plan::Pass)| {
             for step in &mut plan.steps {
-                match &mut step.work {
-                    Work::Custom(pass) => change(pass),
-                    _ => {}
+                if let Work::Custom(pass) = &mut step.work {
+                    change(pass);
                 }
             }
         };
