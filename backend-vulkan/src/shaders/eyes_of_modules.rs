@@ -31,7 +31,7 @@ pub(super) fn declared() -> String {
 /// What it does that can't be told of the eyes.
 pub(super) fn for_both(spirv: &[u32], stage: ShaderStage, both: BothEyes) -> Result<Vec<u32>, RefusedStage> {
     let module = rspirv::dr::load_words(spirv).map_err(|error| format!("SPIR-V that can't be read: {error}"))?;
-    let found = Found::in_module(&IndexedModule::new(&module));
+    let found = ModuleParts::in_module(&IndexedModule::new(&module));
     let cuts = both.cuts_at_seam() && stage.facts().places_vertices;
     if cuts && module.capabilities.iter().any(|it| declares(it, Capability::ClipDistance)) {
         return Err(RefusedStage::beginning(&["SV_ClipDistance", "gl_ClipDistance"], NOT_AT_SEAM.to_owned()));
@@ -69,7 +69,7 @@ pub(super) fn without_views(
     }
     let module = rspirv::dr::load_words(&spirv).map_err(|error| format!("SPIR-V that can't be read: {error}"))?;
     let indexed = IndexedModule::new(&module);
-    let found = Found::in_module(&indexed);
+    let found = ModuleParts::in_module(&indexed);
     let known = indexed
         .variables()
         .find(|(id, it)| storage_class(it) == Some(StorageClass::Private) && indexed.name(*id) == EYE);
@@ -111,7 +111,7 @@ fn is_since(builder: &Builder, major: u8, minor: u8) -> bool {
 
 /// What a module has that knows of eyes, or that eyes change.
 #[derive(Default)]
-struct Found {
+struct ModuleParts {
     /// Input variables: views, the numbers of instances, and the first instance of a draw.
     views: Vec<u32>,
     instances: Vec<u32>,
@@ -126,9 +126,9 @@ struct Found {
     has_layer: bool,
 }
 
-impl Found {
-    fn in_module(module: &IndexedModule<'_>) -> Found {
-        let mut found = Found::default();
+impl ModuleParts {
+    fn in_module(module: &IndexedModule<'_>) -> ModuleParts {
+        let mut found = ModuleParts::default();
         for (variable, it) in module.variables() {
             let own = module.decoration(variable, Decoration::BuiltIn).flatten();
             match (storage_class(it), own) {
@@ -218,12 +218,12 @@ impl Wrapped {
     }
 
     /// The number that a draw counts instances by.
-    fn instance(&mut self, found: &Found) -> Word {
+    fn instance(&mut self, found: &ModuleParts) -> Word {
         let known = found.instances.first().copied();
         known.unwrap_or_else(|| self.built_in(self.int, StorageClass::Input, BuiltIn::InstanceIndex))
     }
 
-    fn wrap(&mut self, found: &Found, values: &EyeValues) -> Result<(), RefusedStage> {
+    fn wrap(&mut self, found: &ModuleParts, values: &EyeValues) -> Result<(), RefusedStage> {
         let StageFacts { places_vertices, writes_attachments, .. } = self.stage.facts();
         let by_instances = self.both.counts_instances();
         let source = match self.both.source {
@@ -344,7 +344,7 @@ impl Wrapped {
     /// Puts a vertex in the half of its eye, and cuts at the seam: as `place` of `eyes` writes it in GLSL.
     fn place_in_half(
         &mut self,
-        found: &Found,
+        found: &ModuleParts,
         position: (u32, Option<u32>),
         eye: Word,
     ) -> Result<(), rspirv::dr::Error> {

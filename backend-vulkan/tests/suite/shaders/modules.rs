@@ -306,12 +306,11 @@ fn a_draw_for_both_eyes_takes_modules_in_each_way() {
 /// Instructions with lines of SPIR-V's own or of a set for debuggers, and modules that hold their text (DO-3).
 #[test]
 fn a_module_that_tells_lines_is_placed_in_its_source() {
-    let modules: [(&str, &[u8]); 5] = [
+    let modules: [(&str, &[u8]); 4] = [
         ("text.spv", include_bytes!("../../../../tests/shaders/spirv/discard_text.spv")),
         ("text_of_set.spv", include_bytes!("../../../../tests/shaders/spirv/discard_gvs.spv")),
         ("lines.spv", include_bytes!("../../../../tests/shaders/spirv/discard_dxc.spv")),
         ("lines_of_set.spv", include_bytes!("../../../../tests/shaders/spirv/discard_dxc_set.spv")),
-        ("slang.spv", include_bytes!("../../../../tests/shaders/spirv/discard_slang.spv")),
     ];
     for (name, _) in modules {
         let drawn = of_modules(&modules).draw_shader(name, Draw::FullScreen, &Variant::default());

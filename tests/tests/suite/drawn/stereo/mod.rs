@@ -37,6 +37,7 @@
 //! | ST-14 | `rotated::at_every_scale_and_number_of_samples_each_eye_sees_the_same_turned` | `plan/part.rs`: twice the width when turned |
 //! | ST-15 | `packed::recording_both_eyes_at_once_takes_a_share_of_the_draw_calls_and_allocations`; times: `passes/benches/eyes.rs` | `eyes/at_once.rs`: `at_once` is false |
 //! | ST-16 | `eyes::grain_and_overlays_are_the_same_in_both_eyes`, `agreement` | `scene.glsl`: `view` is the left eye's |
+//! | DO-2 | `languages::shaders_in_hlsl_draw_for_both_eyes_what_glsl_draws` | `shaders/eyes_of_modules.rs`: layers by a capability of 1.0 |
 //! | NU-4 | `cameras::eyes_far_from_the_origin_see_what_they_see_near_it` | `draw/eyes.rs`: an eye's place in 32 bits |
 //! | NU-4 | `cameras::a_far_plane_changes_nothing_of_what_each_eye_sees_before_it` | `sky.vert`: the eye's place left out |
 //! | NU-4 | `cameras::eyes_at_one_place_and_a_kilometre_apart_see_what_a_camera_there_sees` | `draw/eyes.rs`: `offset` times 0.999 |
