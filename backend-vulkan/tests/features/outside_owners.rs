@@ -38,10 +38,7 @@ fn shared(before: State, after: Option<State>) -> Image {
 }
 
 fn shared_with(before: State, after: Option<State>, owner: Option<OutsideOwner>) -> Image {
-    Image {
-        lifetime: Lifetime::Imported { before, after, owner: None },
-        ..Image::new("shared", Format::R32_UINT, 2, 2)
-    }
+    Image { lifetime: Lifetime::Imported { before, after, owner }, ..Image::new("shared", Format::R32_UINT, 2, 2) }
 }
 
 /// Draws numbers into the image that is shared, and leaves it for the other device.

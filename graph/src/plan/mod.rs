@@ -45,6 +45,7 @@ mod note;
 mod on_chip;
 mod output;
 mod outside;
+mod owners;
 mod part;
 mod reason;
 mod resources;

@@ -190,11 +190,12 @@ impl Work {
 }
 
 impl Step {
-    /// All that it touches: what its barriers are about, and what its work uses.
+    /// All that it touches: what its barriers are about, what its work uses, and what outside owners give or get.
     pub fn touched(&self) -> impl Iterator<Item = Resource> {
         let images = self.image_barriers.iter().chain(&self.releases).map(|barrier| Resource::Image(barrier.image));
         let hazards = self.memory_barriers.iter().flat_map(|barrier| &barrier.buffers);
         let buffers = hazards.map(|hazard| Resource::Buffer(hazard.buffer));
-        images.chain(buffers).chain(self.work.used().map(|(resource, _)| resource))
+        let handed = self.outside.iter().map(|it| it.resource);
+        images.chain(buffers).chain(self.work.used().map(|(resource, _)| resource)).chain(handed)
     }
 }
