@@ -23,7 +23,7 @@ layout(set = 1, binding = 0) uniform accelerationStructureEXT scene;
 layout(location = 0) out vec4 color;
 void main() {
     rayQueryEXT ray;
-    rayQueryInitializeEXT(ray, scene, gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipAABBEXT, 0xff, vec3(gl_FragCoord.xy, 0.0), 0.0, vec3(0.0, 0.0, 1.0), 1.0);
+    rayQueryInitializeEXT(ray, scene, gl_RayFlagsTerminateOnFirstHitEXT, 0xff, vec3(gl_FragCoord.xy, 0.0), 0.0, vec3(0.0, 0.0, 1.0), 1.0);
     while (rayQueryProceedEXT(ray)) {}
     color = vec4(rayQueryGetIntersectionTypeEXT(ray, true));
 }
