@@ -187,6 +187,17 @@ fn a_compiler_that_hangs_is_ended_with_all_that_it_started() {
     assert!(state.is_empty() || state.contains(") Z "), "{state}");
 }
 
+/// One that never ends would fill the disk: it is given up long before its time is over.
+#[cfg(unix)]
+#[test]
+fn a_compiler_that_writes_without_end_is_ended() {
+    let stand_in = StandIn::new("while :; do head -c 1000000 /dev/zero >> $1; done");
+    stand_in
+        .check_with(&["--shader-seconds", "600"])
+        .exits(1)
+        .mentions("wrote more than the 16777216 bytes of SPIR-V that are taken");
+}
+
 #[cfg(unix)]
 #[test]
 fn a_compiler_is_run_once_for_one_text_and_told_of_by_no_pipeline() {

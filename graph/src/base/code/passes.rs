@@ -99,8 +99,8 @@ room! {
 
     /// The cascades of a view don't go together.
     ///
-    /// The passes that draw a view's shadows are of one number of cascades and one reach. Each draws its own number, into the
-    /// layer of that number of one image, and none is missing: `repeat` a pass as often as there are.
+    /// The passes that draw a view's shadows are of one number of cascades and one reach, and their maps have one size. None is missing:
+    /// `repeat` a pass as often as there are. Each draws its own number: into the layer of that number, if a shader samples the image.
     CASCADES = 718,
 
     /// A pass uses one thing in two ways at once.
