@@ -90,13 +90,12 @@ fn frame(way: &Way) -> Place {
     place
 }
 
-/// The picture of the frame's third time, drawn by this way for two eyes; `None`: this driver can't draw it, which is said.
-fn drawn(way: &Way, vulkan: Vulkan, variables: &[(&str, &str)], stereo: &str) -> Option<RgbImage> {
+/// The picture of the frame's third time; `None`: this driver can't draw it, which is said.
+fn drawn(way: &Way, vulkan: Vulkan, variables: &[(&str, &str)]) -> Option<RgbImage> {
     let place = frame(way);
     let scene = ["run", "frame.ron", "--scene", "spheres_and_cubes", "--size", "128x72", "--frames", "3", "--validate"];
     let compiler = way.compiler.iter().flat_map(|[option, _]| ["--shader-compiler", option]);
-    let shown = ["--stereo", stereo, "-o", "drawn.png"];
-    let arguments: Vec<&str> = scene.into_iter().chain(shown).chain(compiler).collect();
+    let arguments: Vec<&str> = scene.into_iter().chain(["-o", "drawn.png"]).chain(compiler).collect();
     let outcome = place.run_with(variables, &arguments);
     // OpCopyLogical of structures, which slangc writes, is too much for Mesa 22.
     if way.ending == ".slang" && vulkan.is_lavapipe() && outcome.err.contains("creating a pipeline failed") {
@@ -129,11 +128,19 @@ fn assert_alike(one: &RgbImage, other: &RgbImage, how: &str) {
 fn a_frame_of_an_engine_draws_the_same_in_each_language() {
     for vulkan in [Vulkan::LAVAPIPE_CURRENT, Vulkan::SWIFTSHADER_CURRENT] {
         let Some(variables) = vulkan.variables() else { continue };
-        let glsl = drawn(&GLSL, vulkan, &variables, "off").expect("GLSL is always drawn");
+        let glsl = drawn(&GLSL, vulkan, &variables).expect("GLSL is always drawn");
         // It is a picture.
         assert!(glsl.pixels().collect::<std::collections::HashSet<_>>().len() > 500);
-        for way in std::iter::once(&HLSL).chain(others()) {
-            let Some(picture) = drawn(way, vulkan, &variables, "off") else { continue };
+        let others = OTHERS.iter().filter(|way| {
+            let program = way.compiler.map_or("", |[_, program]| program);
+            let there = Command::new(program).arg("--version").output().is_ok();
+            if !there {
+                println!("skipped: `{program}` isn't there; tests/compilers/fetch.sh fetches compilers");
+            }
+            there
+        });
+        for way in std::iter::once(&HLSL).chain(others) {
+            let Some(picture) = drawn(way, vulkan, &variables) else { continue };
             assert_alike(&glsl, &picture, &format!("{} on {vulkan:?}", way.name));
         }
     }
@@ -162,32 +169,6 @@ fn do_10_what_is_used_in_part_draws_what_images_of_that_size_draw() {
         assert_eq!(text.matches(&dynamic).count(), 1);
         whole.file("frame.ron", text.replace(&dynamic, &format!("Scaled(\"{RENDERED}\")")));
         assert_alike(&drawn(&whole), &drawn(&part), &setting);
-    }
-}
-
-/// The other ways whose compilers are there.
-fn others() -> impl Iterator<Item = &'static Way> {
-    OTHERS.iter().filter(|way| {
-        let program = way.compiler.map_or("", |[_, program]| program);
-        let there = Command::new(program).arg("--version").output().is_ok();
-        if !there {
-            println!("skipped: `{program}` isn't there; tests/compilers/fetch.sh fetches compilers");
-        }
-        there
-    })
-}
-
-/// DO-2: both eyes at once, by views and by instances.
-#[test]
-fn a_frame_of_an_engine_draws_the_same_for_both_eyes_in_each_language() {
-    for (vulkan, stereo) in [(Vulkan::SWIFTSHADER_CURRENT, "multiview"), (Vulkan::LAVAPIPE_CURRENT, "instanced")] {
-        let Some(variables) = vulkan.variables() else { continue };
-        let glsl = drawn(&GLSL, vulkan, &variables, stereo).expect("GLSL is always drawn");
-        assert_eq!(glsl.width(), 2 * 128);
-        for way in std::iter::once(&HLSL).chain(others()) {
-            let Some(picture) = drawn(way, vulkan, &variables, stereo) else { continue };
-            assert_alike(&glsl, &picture, &format!("{} on {vulkan:?}, {stereo}", way.name));
-        }
     }
 }
 
