@@ -3,7 +3,7 @@
 use super::custom::CustomRecorder;
 use super::dispatch::DispatchRecorder;
 use super::recorder::Recorder;
-use super::secondary::SecondaryRecorder;
+use super::secondary_recorder::SecondaryRecorder;
 use crate::base::Error;
 use framewright_graph::frame::Draw;
 

@@ -4,7 +4,7 @@ use super::custom::CustomRecorder;
 use super::dispatch::DispatchRecorder;
 use super::draw_source::DrawSource;
 use super::recorder::Recorder;
-use super::secondary::SecondaryRecorder;
+use super::secondary_recorder::SecondaryRecorder;
 use crate::base::Error;
 use framewright_graph::frame::Draw;
 use std::any::Any;

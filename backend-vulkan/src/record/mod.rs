@@ -20,6 +20,7 @@ mod recorded_frame;
 mod recorder;
 mod scope;
 mod secondary;
+mod secondary_recorder;
 mod state;
 mod step;
 mod timing;
@@ -30,7 +31,7 @@ pub use dispatch::DispatchRecorder;
 pub use draw_source::DrawSource;
 pub use eye_target::EyeTarget;
 pub use recorder::{IndexType, Recorder};
-pub use secondary::SecondaryRecorder;
+pub use secondary_recorder::SecondaryRecorder;
 pub use timing::{FrameReport, PassReport, StepReport};
 
 pub(crate) use breadcrumbs::Breadcrumbs;

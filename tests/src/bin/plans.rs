@@ -133,6 +133,7 @@ fn of_random(into: &Path) -> Result<usize> {
         let options = Options {
             alias: seed % 3 != 0,
             poison: seed % 5 == 0,
+            readable: false,
             order: orders[(seed / 2 % 4) as usize],
             demote: seed % 7 != 0,
             queues: true,

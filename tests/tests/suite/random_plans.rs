@@ -22,6 +22,7 @@ fn options(seed: u64) -> Options {
     Options {
         alias: number & 1 == 0,
         poison: number & 2 != 0,
+        readable: false,
         order: orders[(number / 8 % 4) as usize],
         demote: number & 4 == 0,
         queues: true,
