@@ -70,10 +70,10 @@ void main() { color = head.value; head.visits = 1; }"
         "#version 460
 #extension GL_EXT_buffer_reference : require
 #extension GL_EXT_scalar_block_layout : require
-layout(buffer_reference, scalar) readonly buffer Node { uint value; vec3 dense; };
+layout(buffer_reference, scalar) readonly buffer Node { uvec2 values; vec3 dense; };
 layout(set = 1, binding = 0) uniform Head { Node head; };
 layout(location = 0) out uint color;
-void main() { color = head.value + uint(head.dense.z); }",
+void main() { color = head.values.x + uint(head.dense.z); }",
     ),
 ];
 
