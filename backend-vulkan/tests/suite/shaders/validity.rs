@@ -173,7 +173,7 @@ fn extensions_that_vulkan_1_3_lacks_are_refused_and_others_are_taken() {
             module.extensions.push(Instruction::new(Op::Extension, None, None, extension));
         }
     };
-    for name in ["SPV_KHR_maximal_reconvergence", "SPV_GOOGLE_user_type", "SPV_KHR_ray_query"] {
+    for name in ["SPV_KHR_maximal_reconvergence", "SPV_GOOGLE_user_type", "SPV_KHR_ray_tracing"] {
         let what = refused("test.comp", COMPUTE, declaring(name));
         assert!(
             what.ends_with(&format!("it needs SPIR-V's extension {name}, which isn't supported: do without it")),
