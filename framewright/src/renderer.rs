@@ -265,6 +265,8 @@ impl Renderer {
             drawn.chosen.clone_from(chosen);
             Change::Values
         } else {
+            // An executor that goes on from another one ends it: what can't have its owners leaves it drawing.
+            drawn.as_ref().map_or(Ok(()), |drawn| drawn.executor.check_owners(plan))?;
             let mut executor = pipeline.assets.executor(device, plan, &options.executor)?;
             sets.iter().for_each(|(number, (set, offsets))| executor.bind_set(*number, *set, offsets));
             let before = drawn.take().map(|before| executor.migrate_from(before.executor));

@@ -8,10 +8,10 @@ use super::submission::{SemaphorePoint, Submission};
 use crate::base::Error;
 use crate::commands::{Readback, Timeline};
 use crate::gpu::{Gpu, PendingWork};
-use crate::prepare::{Batch, Frame, PreparedPlan, batches, title};
+use crate::prepare::{Batch, Frame, PreparedPlan, batches, numbered, numbered_titles};
 use crate::record::{DrawSource, FrameReport, Observers, report};
 use ash::vk;
-use framewright_graph::plan::{Plan, Queue, Step};
+use framewright_graph::plan::{Plan, Queue};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -76,7 +76,7 @@ impl Frames {
             timeout: options.timeout,
             step_by_step,
             titles: match options.breadcrumbs {
-                true => plan.steps.iter().enumerate().map(|(number, step)| numbered(plan, number, step)).collect(),
+                true => numbered_titles(plan).collect(),
                 false => Vec::new(),
             },
             timelines,
@@ -394,6 +394,13 @@ impl Frames {
         slot.finished |= matches!(slot.frame, Some((there, FrameEnd::Given(_))) if there == frame);
     }
 
+    /// Tells from now on what frames of an earlier executor, which were waited for, found out about custom passes and didn't tell.
+    pub(super) fn take_promises(&mut self, before: &mut Frames) {
+        if let (Some(promises), Some(before)) = (&mut self.promises, &mut before.promises) {
+            promises.take_over(before);
+        }
+    }
+
     /// Waits for every frame that was submitted.
     pub(crate) fn wait_for_all(&mut self) -> Result<(), Error> {
         (0..self.slots.len())
@@ -428,11 +435,6 @@ impl Drop for Frames {
         // A wait that fails has given the device up, and nothing is freed.
         let _ = self.wait_for_all();
     }
-}
-
-/// A step with its number.
-fn numbered(plan: &Plan, number: usize, step: &Step) -> String {
-    format!("step {number}: {}", title(plan, step))
 }
 
 /// A point on a timeline, for all stages.

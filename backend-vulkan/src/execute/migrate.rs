@@ -25,7 +25,8 @@ impl Executor {
     /// pipeline at another size or with other settings. What both Plans know by the same name and in the same form keeps
     /// its contents, history as a whole; everything else begins with its initial value. Frames are counted on. Returns the names of
     /// what went on. What the program imported into `before` is to be imported again, or no frame is drawn. Its
-    /// [outside owners](Executor::set_owner) stay.
+    /// [outside owners](Executor::set_owner) stay: [`Executor::check_owners`] tells before whether they can. What `before` found out about
+    /// custom passes and didn't tell yet ([`ExecutorOptions::check_uses`](crate::ExecutorOptions::check_uses)), this executor tells.
     ///
     /// # Errors
     /// [`Error::BadResource`] if this executor has begun already, is of another device, or uses what has an outside owner on several queues;
@@ -43,6 +44,7 @@ impl Executor {
         self.first_frame = before.frames();
         self.missing = before.imported();
         self.take_owners(&mut before)?;
+        self.frames.take_promises(&mut before.frames);
         self.sets.take_over(&before.sets);
         self.runs.go_on(&before.runs);
         if !before.initialised {

@@ -27,10 +27,13 @@ pub struct ExecutorOptions {
     ///   takes two frames.
     /// - What the program asks the recorder of a pass for, the pass names.
     /// - What the validation layer finds is led back to what passes [declare](framewright_graph::frame::DeclaredUse). Under the layer,
-    ///   contents are looked at in every second frame, from the second on, since to look takes barriers, which hide hazards.
+    ///   contents are looked at in every second frame in which a pass runs, from the second on, since to look takes barriers, which hide hazards;
+    ///   those of a pass that runs once in that frame.
     ///
     /// A broken promise is an error of the call that waits for the frame, or for it to make room for another one
-    /// ([`BrokenPromises`](crate::Error::BrokenPromises)), and is told once; the frame is done all the same. Attachments of rendering scopes,
+    /// ([`BrokenPromises`](crate::Error::BrokenPromises)), and is told once; the frame is done all the same. What frames did that nobody waits
+    /// for, the next such call tells, or that of an executor that [goes on](crate::Executor::migrate_from) from this one; if there is none, it isn't
+    /// told. Attachments of rendering scopes,
     /// images of several samples and textures from files aren't looked at, and depth and compressed images hold no garbage. Needs a Plan
     /// that was compiled as [`readable`](framewright_graph::compile::Options::readable), and for each such pass three times the memory of
     /// all that lives beside it, which the host can read. A Plan for several queues is executed step by step.

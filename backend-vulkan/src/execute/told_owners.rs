@@ -49,6 +49,15 @@ impl Executor {
         }
     }
 
+    /// Whether another Plan can have the [owners](Executor::set_owner) that this executor was told: one that an executor is to execute which
+    /// [goes on](Executor::migrate_from) from this one.
+    ///
+    /// # Errors
+    /// [`Error::BadResource`] if several queues use in it what has an outside owner.
+    pub fn check_owners(&self, plan: &Plan) -> Result<(), Error> {
+        self.with_told_owners(plan).map(drop).map_err(|what| Error::BadResource { what })
+    }
+
     /// A Plan with the owners that this executor was told.
     pub(super) fn with_told_owners<'p>(&self, plan: &'p Plan) -> Result<Cow<'p, Plan>, String> {
         if self.told.is_empty() {

@@ -40,7 +40,7 @@ pub(crate) use pass::{PassState, PreparedDraw};
 pub(crate) use physical::PhysicalResources;
 pub(crate) use poison::pattern;
 pub(crate) use prepared_step::{Debugging, Preparation, PreparedPlan};
-pub(crate) use step::{PreparedStep, title};
+pub(crate) use step::{PreparedStep, numbered, numbered_titles};
 pub(crate) use supplied_sets::{SuppliedBlock, SuppliedSet, SuppliedSets};
 pub(crate) use textures::{StagedTexture, file_of, stage_textures};
 pub(crate) use uses::ResourceUses;

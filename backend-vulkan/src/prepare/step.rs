@@ -53,7 +53,7 @@ impl PreparedStep {
         (index, step): (usize, &Step),
         debugging: Debugging,
     ) -> Result<(), Error> {
-        let label = || c_string(&format!("step {index}: {}", title(frame.plan, step)));
+        let label = || c_string(&numbered(frame.plan, index, step));
         list.push_labelled(frame.gpu, label, |list| {
             if debugging.full_barriers {
                 list.push_barriers(frame.gpu, [everything()], []);
@@ -176,8 +176,18 @@ fn everything() -> vk::MemoryBarrier2<'static> {
         .dst_access_mask(accesses)
 }
 
+/// A step with its number and its title, as labels of command buffers and errors name it.
+pub(crate) fn numbered(plan: &Plan, number: usize, step: &Step) -> String {
+    format!("step {number}: {}", title(plan, step))
+}
+
+/// Those of all steps.
+pub(crate) fn numbered_titles(plan: &Plan) -> impl Iterator<Item = String> {
+    plan.steps.iter().enumerate().map(|(number, step)| numbered(plan, number, step))
+}
+
 /// A step in words, for debuggers and messages.
-pub(crate) fn title(plan: &Plan, step: &Step) -> String {
+fn title(plan: &Plan, step: &Step) -> String {
     let work = &step.work;
     if !work.passes().is_empty() {
         return work.passes().iter().map(|pass| &*pass.name).collect::<Vec<_>>().join(", ");

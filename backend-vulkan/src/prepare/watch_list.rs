@@ -6,7 +6,7 @@ use super::uses::ResourceUses;
 use crate::base::Error;
 use crate::gpu::Gpu;
 use framewright_graph::base::Place;
-use framewright_graph::frame::Draw;
+use framewright_graph::frame::{Cadence, Draw};
 use framewright_graph::plan::{
     Access, BufferAccess, FirstContents, Image, ImageId, Pass, Plan, Queue, Resource, Role, Step, StepId,
 };
@@ -14,10 +14,15 @@ use framewright_graph::vulkan::{
     Accesses, Aspects, BufferUsage, Format, Layout, Sharing, Subresources, Usage, name_of,
 };
 use std::collections::HashMap;
+use std::sync::atomic::AtomicU32;
 
 /// A step with passes that the program records, and what tells whether they keep to what they declare.
 pub(crate) struct WatchedStep {
     pub(crate) step: usize,
+    /// Whether it runs in the first frame alone.
+    pub(crate) once: bool,
+    /// How often it was recorded.
+    pub(crate) recorded: AtomicU32,
     /// The passes that the program records, and where the pipeline says so.
     pub(crate) passes: Vec<(String, Option<Place>)>,
     pub(crate) parts: Vec<WatchedPart>,
@@ -99,7 +104,8 @@ pub(crate) fn watch_list(gpu: &Gpu, plan: &Plan) -> Result<Vec<WatchedStep>, Err
         let passes: Vec<_> = passes.map(|pass| (pass.name.to_string(), pass.cause.at().cloned())).collect();
         if !passes.is_empty() {
             let parts = watched_parts(gpu, plan, &uses, &states, (number, step));
-            list.push(WatchedStep { step: number, passes, parts });
+            let (once, recorded) = (step.run == Cadence::Once, AtomicU32::new(0));
+            list.push(WatchedStep { step: number, once, recorded, passes, parts });
         }
         states.end(step);
     }

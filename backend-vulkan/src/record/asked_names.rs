@@ -1,6 +1,7 @@
 //! The names that a program asks a recorder for, and that its pass doesn't name.
 
-use framewright_graph::plan::Plan;
+use super::custom_image::has_name;
+use framewright_graph::plan::{Pass, Plan};
 use std::sync::{Mutex, PoisonError};
 
 /// Names that were asked for in vain.
@@ -16,12 +17,19 @@ impl AskedNames {
         found
     }
 
-    /// Those that are an image or a buffer of the Plan.
-    pub(super) fn of(&self, plan: &Plan) -> Vec<String> {
+    /// Those that are an image or a buffer of the Plan and that the pass doesn't name, each once. What it names as a buffer may be asked
+    /// for as an image, to find out which it is.
+    pub(super) fn of(&self, plan: &Plan, pass: &Pass) -> Vec<String> {
         let asked = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let is_known = |name: &&String| {
             plan.images.iter().any(|image| *image.name == ***name) || plan.buffers.iter().any(|it| *it.name == ***name)
         };
-        asked.iter().filter(is_known).cloned().collect()
+        let mut unnamed: Vec<String> = Vec::new();
+        for name in asked.iter().filter(is_known).filter(|name| !has_name(plan, pass, name)) {
+            if !unnamed.contains(name) {
+                unnamed.push(name.clone());
+            }
+        }
+        unnamed
     }
 }

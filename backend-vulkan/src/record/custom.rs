@@ -2,12 +2,14 @@
 
 use super::asked_names::AskedNames;
 use super::custom_image::{CustomImage, named_buffer};
+use super::eye_target::eye_of;
+use super::fragments::COUNTED;
 use crate::base::convert;
 use crate::commands::{TransferSide, barriers, copy_between, fill};
 use crate::gpu::Gpu;
 use crate::prepare::{Frame, part};
 use ash::vk;
-use framewright_graph::frame::{EyeForm, ParamValue, Stereo};
+use framewright_graph::frame::{Eye, EyeForm, ParamValue, Stereo};
 use framewright_graph::plan::{self, Access, BufferAccess, Queue};
 use framewright_graph::vulkan::{Accesses, FillValue, Stages, name_of};
 
@@ -24,6 +26,8 @@ pub struct CustomRecorder<'f> {
     recorded: u32,
     /// Whether the program has the command buffer.
     has_raw: bool,
+    /// Whether a query is open in it.
+    has_query: bool,
     misuse: Option<String>,
     asked: AskedNames,
 }
@@ -51,12 +55,12 @@ impl NamedResource<'_> {
 }
 
 impl<'f> CustomRecorder<'f> {
-    /// `queue`: that of the pass's step.
+    /// `queue`: that of the pass's step; `has_query`: whether a query is open.
     pub(crate) fn new(
         frame: &'f Frame<'f>,
         commands: vk::CommandBuffer,
         pass: &'f plan::Pass,
-        queue: Queue,
+        (queue, has_query): (Queue, bool),
     ) -> CustomRecorder<'f> {
         CustomRecorder {
             frame,
@@ -65,6 +69,7 @@ impl<'f> CustomRecorder<'f> {
             queue,
             recorded: 0,
             has_raw: false,
+            has_query,
             misuse: None,
             asked: AskedNames::default(),
         }
@@ -93,6 +98,13 @@ impl<'f> CustomRecorder<'f> {
     pub fn view(&self) -> Option<&plan::View> {
         let view = self.pass.view?;
         self.frame.plan.views.get(view.0 as usize)
+    }
+
+    /// The eye that the pass is recorded for, where that is done for one after the other; `None`: there is one, or it is recorded for
+    /// [both](CustomRecorder::both_eyes), or for what both share.
+    #[must_use]
+    pub fn eye(&self) -> Option<Eye> {
+        eye_of(self.frame.plan, self.pass)
     }
 
     /// How the pass is recorded for both eyes at once: `both_eyes` of the pipeline, where the frame is drawn so. Images of each eye then
@@ -195,8 +207,9 @@ impl<'f> CustomRecorder<'f> {
         self.commands
     }
 
-    /// Executes secondary command buffers, one after the other: with the inheritance info of none, since no rendering scope and no query is
-    /// open. They were recorded on any thread, during the frame or before it.
+    /// Executes secondary command buffers, one after the other, which were begun with an inheritance info of its defaults: no rendering scope
+    /// and no query is open. They were recorded on any thread, during the frame or before it. While the frame's
+    /// [fragments are counted](crate::ExecutorOptions::fragment_counts) a query is open on queues that draw, and to execute any is a misuse.
     ///
     /// # Safety
     /// They are of this device and of [`CustomRecorder::queue_family`], recorded and ended, and touch what the pass names, as the Plan says,
@@ -204,6 +217,9 @@ impl<'f> CustomRecorder<'f> {
     pub unsafe fn execute(&mut self, secondary: &[vk::CommandBuffer]) {
         if secondary.is_empty() {
             return;
+        }
+        if self.has_query {
+            return self.misused(|| COUNTED.to_owned());
         }
         let commands = self.raw();
         // SAFETY: the command buffer is being recorded outside a scope, and the caller's word.
@@ -280,7 +296,7 @@ impl<'f> CustomRecorder<'f> {
 
     /// The images and buffers of the Plan that were asked for, and that the pass doesn't name.
     pub(super) fn asked(&self) -> Vec<String> {
-        self.asked.of(self.frame.plan)
+        self.asked.of(self.frame.plan, self.pass)
     }
 
     /// How many commands were recorded, or the first misuse. To record nothing is one where the pass writes: those who read

@@ -4,7 +4,7 @@ use crate::base::convert;
 use crate::prepare::{Frame, part};
 use ash::vk;
 use framewright_graph::frame::{Eye, EyeForm};
-use framewright_graph::plan::{self, Access, BufferAccess};
+use framewright_graph::plan::{self, Access, BufferAccess, Plan};
 use framewright_graph::vulkan::{Accesses, Rotation, Stages, Subresources};
 
 /// An image of a pass, for commands of the program's own.
@@ -36,10 +36,7 @@ impl CustomImage {
     /// The image that a pass accesses, by the Plan's name or the shader's.
     pub(super) fn of(frame: &Frame<'_>, pass: &plan::Pass, name: &str) -> Option<CustomImage> {
         let plan = frame.plan;
-        let is_named = |it: &&Access| {
-            *plan.image(it.image).name == *name || it.binding.as_ref().is_some_and(|binding| *binding.name == *name)
-        };
-        let access = pass.accesses.iter().find(is_named)?;
+        let access = image_named(plan, pass, name)?;
         Some(CustomImage {
             raw: frame.image(access.image).raw,
             range: part(plan.image(access.image), access.range),
@@ -56,9 +53,22 @@ impl CustomImage {
 
 /// The buffer that a pass accesses, by the Plan's name or the shader's.
 pub(super) fn named_buffer(frame: &Frame<'_>, pass: &plan::Pass, name: &str) -> Option<vk::Buffer> {
-    let is_named = |it: &&BufferAccess| {
-        *frame.plan.buffers[it.buffer.0 as usize].name == *name || it.binding.as_deref() == Some(name)
-    };
-    let access = pass.buffers.iter().find(is_named)?;
-    Some(frame.buffer(access.buffer).raw)
+    Some(frame.buffer(buffer_named(frame.plan, pass, name)?.buffer).raw)
+}
+
+/// Whether a pass accesses an image or a buffer of this name, the Plan's or the shader's.
+pub(super) fn has_name(plan: &Plan, pass: &plan::Pass, name: &str) -> bool {
+    image_named(plan, pass, name).is_some() || buffer_named(plan, pass, name).is_some()
+}
+
+fn image_named<'p>(plan: &Plan, pass: &'p plan::Pass, name: &str) -> Option<&'p Access> {
+    pass.accesses.iter().find(|it| {
+        *plan.image(it.image).name == *name || it.binding.as_ref().is_some_and(|binding| *binding.name == *name)
+    })
+}
+
+fn buffer_named<'p>(plan: &Plan, pass: &'p plan::Pass, name: &str) -> Option<&'p BufferAccess> {
+    let is_named =
+        |it: &&BufferAccess| *plan.buffers[it.buffer.0 as usize].name == *name || it.binding.as_deref() == Some(name);
+    pass.buffers.iter().find(is_named)
 }

@@ -38,8 +38,8 @@ pub trait DrawSource {
     }
 
     /// Whether the draws of the custom pass that the pipeline knows as `callback`, and that stands within a rendering scope, come in secondary
-    /// command buffers: then [`DrawSource::secondary`] is called for it in place of [`DrawSource::record`]. It is asked several times in a
-    /// frame, and answers the same. Unless this is overridden: no.
+    /// command buffers: then [`DrawSource::secondary`] is called for it in place of [`DrawSource::record`]. It is asked once for each such pass
+    /// of a frame, when the pass's scope begins. Unless this is overridden: no.
     fn has_secondary(&mut self, _callback: &str) -> bool {
         false
     }

@@ -47,3 +47,30 @@ impl EyeTarget {
         }))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use framewright_graph::vulkan::Rotation;
+
+    /// DO-12: in a turned picture the halves lie where the turned upright ones do, and fill what is made for both.
+    #[test]
+    fn do_12_halves_of_turned_pictures_are_each_eyes_own() {
+        let sides = |rotation, extent: [u32; 2]| {
+            // Instances draw into both halves by one viewport, and yet each half is one eye's.
+            let eyes = Some((Stereo::Instanced, EyeForm::Halves));
+            let target = DrawTarget { extent, rotation, eyes, viewport: [0.0; 4], scissor: [0; 4] };
+            let targets = EyeTarget::of_both(&target).expect("it is for both");
+            assert_eq!(targets.map(|it| (it.eye, it.layer)), [(Eye::Left, 0), (Eye::Right, 0)]);
+            targets.map(|EyeTarget { viewport, scissor: vk::Rect2D { offset, extent }, .. }| {
+                assert_eq!([viewport.x, viewport.y], [offset.x as f32, offset.y as f32]);
+                assert_eq!([viewport.width, viewport.height], [extent.width as f32, extent.height as f32]);
+                (offset.x, offset.y, extent.width, extent.height)
+            })
+        };
+        assert_eq!(sides(Rotation::Identity, [8, 4]), [(0, 0, 8, 4), (8, 0, 8, 4)]);
+        assert_eq!(sides(Rotation::Rotate90, [4, 8]), [(0, 0, 4, 8), (0, 8, 4, 8)]);
+        assert_eq!(sides(Rotation::Rotate180, [8, 4]), [(8, 0, 8, 4), (0, 0, 8, 4)]);
+        assert_eq!(sides(Rotation::Rotate270, [4, 8]), [(0, 8, 4, 8), (0, 0, 4, 8)]);
+    }
+}

@@ -7,6 +7,10 @@ use ash::vk;
 use framewright_graph::plan::{Plan, Queue};
 use std::sync::Arc;
 
+/// What is said of secondary command buffers while a query is open.
+pub(super) const COUNTED: &str =
+    "secondary command buffers while fragments are counted, which they would have to inherit";
+
 /// The counts of one frame: one for each batch whose queue draws.
 ///
 /// Inside a scope with a view mask Vulkan takes a query for each view, and drivers differ on what a query around such a scope counts.
@@ -55,6 +59,11 @@ impl FragmentCounts {
                 self.gpu.raw.cmd_begin_query(commands, self.pool, self.batch, vk::QueryControlFlags::empty());
             }
         }
+    }
+
+    /// Whether its query is open in the command buffer of the batch that is being recorded.
+    pub(super) fn is_open(&self) -> bool {
+        self.counts
     }
 
     /// Ends the count of a batch.

@@ -25,8 +25,8 @@ impl DrawSource for GuardedSource<'_> {
     }
 
     fn has_secondary(&mut self, callback: &str) -> bool {
-        // One that panics here is called, and panics again or is told what it lacks.
-        catch_unwind(AssertUnwindSafe(|| self.0.has_secondary(callback))).unwrap_or(false)
+        // Whoever asks for a pass guards the question: an answer has no room for an error.
+        self.0.has_secondary(callback)
     }
 
     fn secondary(&mut self, callback: &str, recorder: &mut SecondaryRecorder<'_>) -> Result<u32, Error> {
@@ -38,6 +38,11 @@ impl DrawSource for GuardedSource<'_> {
         let recorded = catch_unwind(AssertUnwindSafe(|| self.0.custom(callback, recorder)));
         recorded.unwrap_or_else(|payload| Err(panicked(recorder.pass(), &*payload)))
     }
+}
+
+/// Asks whether a pass has secondary command buffers. A panic is an error of the pass.
+pub(super) fn has_secondary(source: &mut dyn DrawSource, pass: &str, callback: &str) -> Result<bool, Error> {
+    catch_unwind(AssertUnwindSafe(|| source.has_secondary(callback))).map_err(|payload| panicked(pass, &*payload))
 }
 
 fn panicked(pass: &str, payload: &(dyn Any + Send)) -> Error {

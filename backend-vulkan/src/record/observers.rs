@@ -59,6 +59,11 @@ impl Observers {
         self.watch.as_mut().map_or(Ok(()), |watch| watch.begin(frame, commands, step))
     }
 
+    /// Whether a query is open in the command buffer that is being recorded, which secondary ones would have to inherit.
+    pub(super) fn has_query(&self) -> bool {
+        self.fragments.as_ref().is_some_and(FragmentCounts::is_open)
+    }
+
     /// Ends the work of a step.
     pub(super) fn end_work(&mut self, frame: &Frame<'_>, commands: vk::CommandBuffer) {
         if let Some(watch) = &mut self.watch {

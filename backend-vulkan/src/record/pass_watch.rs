@@ -11,8 +11,9 @@ use crate::prepare::{Frame, PartPromise, WatchedPart, WatchedStep, pattern};
 use ash::vk;
 use framewright_graph::frame::EyeForm;
 use framewright_graph::plan::{Pass, Resource};
-use framewright_graph::vulkan::{Aspects, Layout, Usage};
+use framewright_graph::vulkan::{Aspects, BufferUsage, Layout, Usage};
 use std::sync::Arc;
+use std::sync::atomic::Ordering;
 
 /// Texels of every format begin at a multiple of it: of their size, and of 4.
 const ALIGNMENT: u64 = 48;
@@ -28,8 +29,6 @@ pub(crate) struct PassWatch {
     copies: Vec<StepCopies>,
     /// The watched step whose commands are being recorded.
     open: Option<usize>,
-    /// Which garbage the frame has.
-    turn: usize,
     /// What the program asked a recorder for, and its pass doesn't name.
     asked: Vec<BrokenPromise>,
 }
@@ -40,6 +39,8 @@ struct StepCopies {
     buffer: Option<RawBuffer>,
     /// By part; empty if the frame didn't look at the step.
     places: Vec<CopyPlace>,
+    /// Which garbage they held.
+    turn: usize,
 }
 
 /// Where the copies of a part lie.
@@ -58,7 +59,7 @@ impl PassWatch {
     /// A watch over these steps.
     pub(crate) fn new(gpu: &Arc<Gpu>, steps: &Arc<[WatchedStep]>) -> PassWatch {
         let copies = steps.iter().map(|_| StepCopies::default()).collect();
-        PassWatch { gpu: gpu.clone(), steps: steps.clone(), copies, open: None, turn: 0, asked: Vec::new() }
+        PassWatch { gpu: gpu.clone(), steps: steps.clone(), copies, open: None, asked: Vec::new() }
     }
 
     /// Begins a frame. The one before must have been waited for.
@@ -72,14 +73,19 @@ impl PassWatch {
     /// and its commands follow. Nothing if the step isn't watched.
     pub(super) fn begin(&mut self, frame: &Frame<'_>, commands: vk::CommandBuffer, step: usize) -> Result<(), Error> {
         let Some(number) = self.steps.iter().position(|watched| watched.step == step) else { return Ok(()) };
-        // To look takes barriers, which hide hazards from the validation layer: it has every second frame for itself.
-        if self.gpu.instance.validation.is_some() && frame.number.is_multiple_of(2) {
+        let steps = self.steps.clone();
+        let recorded = steps[number].recorded.fetch_add(1, Ordering::Relaxed);
+        // To look takes barriers, which hide hazards from the validation layer: it has every second run of a step for itself. What runs once
+        // is looked at then.
+        let shared = self.gpu.instance.validation.is_some() && !steps[number].once;
+        if shared && recorded.is_multiple_of(2) {
             return Ok(());
         }
-        // Frames that follow each other, and are looked at, have different garbage.
-        self.turn = if (frame.number / 2).is_multiple_of(2) { 0 } else { 1 };
-        let (steps, turn) = (self.steps.clone(), self.turn);
+        // Runs that follow each other, and are looked at, have different garbage.
+        let looked = if shared { recorded / 2 } else { recorded };
+        let turn = usize::from(!looked.is_multiple_of(2));
         let copies = &mut self.copies[number];
+        copies.turn = turn;
         let end = copies.place(frame, &steps[number].parts);
         if copies.buffer.as_ref().is_none_or(|made| made.bytes < end) {
             let usage = vk::BufferUsageFlags::TRANSFER_DST | vk::BufferUsageFlags::TRANSFER_SRC;
@@ -105,7 +111,7 @@ impl PassWatch {
     /// Copies the same again behind the commands of the step that was begun, and gives what was filled its contents back.
     pub(super) fn end(&mut self, frame: &Frame<'_>, commands: vk::CommandBuffer) {
         let Some(number) = self.open.take() else { return };
-        let StepCopies { buffer: Some(buffer), places } = &self.copies[number] else { return };
+        let StepCopies { buffer: Some(buffer), places, .. } = &self.copies[number] else { return };
         let copying = Copying { frame, commands, buffer: buffer.raw };
         let parts = &self.steps[number].parts;
         copying.turn(parts, false);
@@ -132,7 +138,7 @@ impl PassWatch {
     /// untouched.
     pub(crate) fn broken(&self, untouched: &mut UntouchedTexels) -> Result<Vec<BrokenPromise>, Error> {
         let mut broken = self.asked.clone();
-        for (watched, StepCopies { buffer, places }) in self.steps.iter().zip(&self.copies) {
+        for (watched, StepCopies { buffer, places, turn }) in self.steps.iter().zip(&self.copies) {
             let Some(buffer) = buffer.as_ref().filter(|_| !places.is_empty()) else { continue };
             let bytes = buffer.contents(usize::try_from(buffer.bytes).unwrap_or(usize::MAX))?;
             for (number, (part, place)) in watched.parts.iter().zip(places).enumerate() {
@@ -143,7 +149,7 @@ impl PassWatch {
                 let (expected, after) = (held(place.garbage.unwrap_or(place.before)), held(place.after));
                 let done = match part.promise {
                     PartPromise::Unnamed | PartPromise::Read => difference(part, expected, after),
-                    PartPromise::Replaced => untouched.look((watched.step, number), self.turn, part, (expected, after)),
+                    PartPromise::Replaced => untouched.look((watched.step, number), *turn, part, (expected, after)),
                 };
                 let (passes, resource, declared) = (watched.passes.clone(), part.name.clone(), part.said.clone());
                 broken.extend(done.map(|done| BrokenPromise { passes, resource, declared, done }));
@@ -159,7 +165,7 @@ impl StepCopies {
         self.places.clear();
         let mut end = 0_u64;
         for part in parts {
-            let bytes = bytes(frame, part);
+            let bytes = if may_be_copied(frame, part) { bytes(frame, part) } else { 0 };
             let mut next = || {
                 let at = end;
                 end = (end + bytes).next_multiple_of(ALIGNMENT);
@@ -190,6 +196,18 @@ fn bytes(frame: &Frame<'_>, part: &WatchedPart) -> u64 {
     }
 }
 
+/// Whether a part can be copied from. A buffer of the program's own is made as the Plan says, and no more.
+fn may_be_copied(frame: &Frame<'_>, part: &WatchedPart) -> bool {
+    match part.resource {
+        // The program is told to make them so: `Executor::image_info`.
+        Resource::Image(_) => true,
+        Resource::Buffer(buffer) => {
+            let planned = frame.plan.buffers[buffer.0 as usize].usage.contains(BufferUsage::TRANSFER_SRC);
+            planned || !frame.buffer(buffer).is_foreign()
+        }
+    }
+}
+
 /// Whether a part is filled with garbage: its step doesn't read it, and it can be.
 fn may_be_spoilt(frame: &Frame<'_>, part: &WatchedPart) -> bool {
     let fits = match part.resource {
@@ -199,9 +217,13 @@ fn may_be_spoilt(frame: &Frame<'_>, part: &WatchedPart) -> bool {
             let clears = part.range.aspects == Aspects::COLOR;
             made.usage.contains(Usage::TRANSFER_DST) && !made.format.is_compressed() && clears
         }
-        Resource::Buffer(buffer) => frame.buffer(buffer).usage.contains(vk::BufferUsageFlags::TRANSFER_DST),
+        Resource::Buffer(buffer) => {
+            let made = frame.buffer(buffer);
+            let planned = frame.plan.buffers[buffer.0 as usize].usage.contains(BufferUsage::TRANSFER_DST);
+            if made.is_foreign() { planned } else { made.usage.contains(vk::BufferUsageFlags::TRANSFER_DST) }
+        }
     };
-    part.promise != PartPromise::Read && fits
+    part.promise != PartPromise::Read && fits && may_be_copied(frame, part)
 }
 
 /// Copies between parts and a buffer. Images are in the layout `GENERAL` meanwhile.
@@ -264,8 +286,11 @@ impl Copying<'_> {
         }
     }
 
-    /// Copies a part to a place of the buffer.
+    /// Copies a part to a place of the buffer, if it can be copied.
     fn take(&self, part: &WatchedPart, at: u64, bytes: u64) {
+        if bytes == 0 {
+            return;
+        }
         match self.side(part) {
             TransferSide::Image(image) => copy_from_image(self.frame.gpu, self.commands, image, (self.buffer, at)),
             TransferSide::Buffer { buffer, .. } => self.copy((buffer, 0), (self.buffer, at), bytes),

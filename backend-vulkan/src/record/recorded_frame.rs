@@ -11,6 +11,8 @@ pub(crate) struct RecordedFrame {
     /// The steps that were left out.
     pub(super) left_out: Vec<usize>,
     pub(super) kept: HeldResources,
+    /// By pass of the scope that is recorded: whether its draws come in secondary command buffers.
+    pub(super) secondary: Vec<bool>,
     /// How long that took.
     pub(crate) took: Duration,
 }

@@ -162,7 +162,7 @@ impl<'f> Recorder<'f> {
         self.canvas.target.rotation
     }
 
-    /// Width and height of what is drawn into: of the turned picture.
+    /// Width and height of the targets, of the turned picture; where they are for both eyes, of one eye's picture.
     #[must_use]
     pub fn target_extent(&self) -> [u32; 2] {
         self.canvas.target.extent
@@ -456,7 +456,7 @@ impl<'f> Recorder<'f> {
 
     /// The images and buffers of the Plan that were asked for, and that the pass doesn't name.
     pub(super) fn asked(&self) -> Vec<String> {
-        self.asked.of(self.frame.plan)
+        self.asked.of(self.frame.plan, self.plan)
     }
 
     /// How many objects were left out, or the first misuse if there was any.

@@ -1,6 +1,7 @@
 //! Custom passes within a rendering scope whose draws come in secondary command buffers: how the scope is suspended and resumed around them.
 
-use super::draw_source::DrawSource;
+use super::fragments::COUNTED;
+use super::guarded_source::has_secondary;
 use super::recorded_frame::Counts;
 use super::scope::begin;
 use super::secondary_recorder::{FLAGS, SecondaryRecorder};
@@ -9,7 +10,6 @@ use crate::base::Error;
 use crate::prepare::{DrawCommand, ScopeCommand};
 use ash::vk;
 use framewright_graph::frame::Draw;
-use framewright_graph::plan;
 
 /// The scope that is being recorded.
 #[derive(Clone, Copy)]
@@ -27,13 +27,23 @@ impl OpenScope<'_> {
 }
 
 impl<'r> Recording<'r> {
-    /// Begins the rendering scope of a step.
-    pub(super) fn begin_scope(&mut self, commands: vk::CommandBuffer, step: usize, command: &'r ScopeCommand) {
-        let passes = self.frame.plan.steps[step].work.passes();
-        let left = passes.iter().filter(|pass| has_secondary(self.source, pass)).count();
-        let scope = OpenScope { command, left };
+    /// Begins the rendering scope of a step. The draw source says once for each pass how its draws come.
+    pub(super) fn begin_scope(
+        &mut self,
+        commands: vk::CommandBuffer,
+        step: usize,
+        command: &'r ScopeCommand,
+    ) -> Result<(), Error> {
+        let answers = &mut self.recorded.secondary;
+        answers.clear();
+        for pass in self.frame.plan.steps[step].work.passes() {
+            let is_custom = pass.draw.is_some_and(Draw::is_custom);
+            answers.push(is_custom && has_secondary(self.source, &pass.name, &pass.shader)?);
+        }
+        let scope = OpenScope { command, left: answers.iter().filter(|has| **has).count() };
         self.scope = Some(scope);
         begin(self.frame.gpu, commands, &self.prepared.list, command, scope.flags());
+        Ok(())
     }
 
     /// Records a pass whose draws come in secondary command buffers, if it is one.
@@ -45,20 +55,22 @@ impl<'r> Recording<'r> {
     ) -> Result<Option<Counts>, Error> {
         let pass = &self.frame.plan.steps[step].work.passes()[draw.pass as usize];
         let Some(scope) = self.scope.as_mut().filter(|scope| scope.left > 0) else { return Ok(None) };
-        if !has_secondary(self.source, pass) {
+        if !self.recorded.secondary[draw.pass as usize] {
             return Ok(None);
         }
         scope.left -= 1;
         let scope = *scope;
-        let formats = &self.prepared.steps[step].draws()[draw.pass as usize].state.formats;
+        let draws = self.prepared.steps[step].draws();
+        let formats = &draws[draw.pass as usize].state.formats;
         let misused = |what: &str| Error::Recording { pass: pass.name.to_string(), what: what.to_owned() };
-        if formats.local.is_some() {
-            return Err(misused("secondary command buffers in a scope whose passes read what it drew"));
-        }
-        if self.observers.fragments.is_some() {
+        // Where the scope is gone on with, what its passes see of the attachments begins anew.
+        if draws.iter().any(|it| it.state.formats.local.is_some()) {
             return Err(misused(
-                "secondary command buffers while fragments are counted, which they would have to inherit",
+                "secondary command buffers in a scope whose passes read what it drew, or draw into others of its attachments",
             ));
+        }
+        if self.observers.has_query() {
+            return Err(misused(COUNTED));
         }
         let (gpu, list) = (self.frame.gpu, &self.prepared.list);
         let go_on = |flags| {
@@ -80,9 +92,4 @@ impl<'r> Recording<'r> {
         self.state.begin_pass();
         Ok(Some(Counts { draws, culled: 0 }))
     }
-}
-
-/// Whether the draws of a pass come in secondary command buffers.
-fn has_secondary(source: &mut dyn DrawSource, pass: &plan::Pass) -> bool {
-    pass.draw.is_some_and(Draw::is_custom) && source.has_secondary(&pass.shader)
 }

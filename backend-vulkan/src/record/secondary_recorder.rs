@@ -39,7 +39,7 @@ impl<'f> SecondaryRecorder<'f> {
 
     /// The images and buffers of the Plan that were asked for, and that the pass doesn't name.
     pub(super) fn asked(&self) -> Vec<String> {
-        self.asked.of(self.frame.plan)
+        self.asked.of(self.frame.plan, self.pass)
     }
 
     /// The pass's name.
@@ -78,7 +78,7 @@ impl<'f> SecondaryRecorder<'f> {
         self.formats.inheritance()
     }
 
-    /// Width and height of what is drawn into: of the turned picture, and of both eyes' halves.
+    /// Width and height of the targets, of the turned picture; where they are for both eyes, of one eye's picture.
     #[must_use]
     pub fn target_extent(&self) -> [u32; 2] {
         self.target.extent

@@ -71,7 +71,7 @@ impl<'r> Recording<'r> {
                 Command::Transfer(transfer) => transfer.record(gpu, commands),
                 Command::BeginScope(scope) => {
                     self.observers.begin_work(self.frame, commands, step)?;
-                    self.begin_scope(commands, step, scope);
+                    self.begin_scope(commands, step, scope)?;
                 }
                 Command::LocalBarrier => super::scope::local_barrier(gpu, commands),
                 Command::SeeAttachments(local) => super::scope::see_attachments(gpu, commands, local),
@@ -122,7 +122,7 @@ impl<'r> Recording<'r> {
 
     fn custom(&mut self, commands: vk::CommandBuffer, pass: &Pass, queue: Queue) -> Result<u32, Error> {
         self.state.lose_track();
-        let mut recorder = CustomRecorder::new(self.frame, commands, pass, queue);
+        let mut recorder = CustomRecorder::new(self.frame, commands, pass, (queue, self.observers.has_query()));
         self.source.custom(&pass.shader, &mut recorder)?;
         if let Some(watch) = &mut self.observers.watch {
             watch.note_asked(pass, recorder.asked());

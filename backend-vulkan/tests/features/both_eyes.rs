@@ -211,7 +211,9 @@ impl Engine<'_> {
         assert_eq!((source.eye, target.eye), (None, None), "both eyes', or an image of its own");
         assert_eq!((source.extent, target.extent), ([8, 4, 1], [8, 4, 1]), "one eye's");
         assert_eq!(target.range.layers, if target.eyes == Some(EyeForm::Layers) { 2 } else { 1 });
-        let eye = recorder.view().and_then(|view| view.eye).map_or(0, |of| of.eye as i32);
+        assert_eq!(recorder.eye(), recorder.view().and_then(|view| view.eye).map(|of| of.eye));
+        assert_eq!(recorder.eye().is_none(), both.is_some());
+        let eye = recorder.eye().map_or(0, |eye| eye as i32);
         let commands = recorder.raw();
         let views = [self.view(&source), self.view(&target)];
         let raw = self.device.raw();

@@ -5,8 +5,8 @@ use crate::counted_barriers::{counted, counting, counting_device};
 use crate::foreign::{destroy_buffer, destroy_image, own_buffer, own_image};
 use crate::frames::{Small, Uses, dispatch, draw, frame, library, on_each_driver, planned, texels, to_bytes, words};
 use framewright_graph::compile::Options;
-use framewright_graph::frame::{Draw, Frame, Groups, Image, Lifetime};
-use framewright_graph::plan::Plan;
+use framewright_graph::frame::{Draw, Frame, Groups, Image, Lifetime, Pass};
+use framewright_graph::plan::{Plan, Queue};
 use framewright_graph::vulkan::{Accesses, Aspects, Format, Layout, Stages, State, Subresources};
 use framewright_vulkan::ash::{self, khr, vk};
 use framewright_vulkan::{Device, DeviceFeatures, Executor, ExecutorOptions, OutsideOwner};
@@ -334,6 +334,26 @@ fn do_11_an_owner_that_was_told_outlasts_a_change_of_values() {
         executor.change(&owned).expect("values alone");
         executor.set_owner("shared", None).expect("it is external");
         assert_eq!(executor.plan(), &plan);
+    });
+}
+
+/// What several queues use can't have the owner that was told, which is known before an executor ends for the next one.
+#[test]
+fn do_11_a_plan_that_can_not_have_a_told_owner_is_known_before() {
+    on_each_driver(|device| {
+        let mut small = Small { frame: increased() };
+        let again = small.frame.passes[0].clone();
+        small.pass(Pass { name: "again".into(), ..again });
+        let plan = planned(device, &small.frame, &Options::default());
+        let mut several = plan.clone();
+        several.steps[1].queue = Queue::Compute;
+        let mut executor = executor(device, &increased());
+        executor.check_owners(&several).expect("no owner was told");
+        executor.set_owner("words", Some(OutsideOwner::External)).expect("it is external");
+        executor.check_owners(&plan).expect("one queue uses it");
+        let said = executor.check_owners(&several).expect_err("two queues use it").to_string();
+        assert!(said.contains("several queues use `words`"), "{said}");
+        frame(&mut executor);
     });
 }
 

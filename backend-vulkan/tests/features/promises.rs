@@ -6,7 +6,7 @@ use crate::frames::{
 };
 use ash::vk;
 use framewright_graph::compile::Options;
-use framewright_graph::frame::{DeclaredUse, Draw, Frame, Resource, Work};
+use framewright_graph::frame::{Cadence, DeclaredUse, Draw, Frame, Pass, Resource, Work};
 use framewright_graph::vulkan::{Accesses, FillValue, Format, Layout, Stages, State, Subresources};
 use framewright_vulkan::{BrokenPromise, CustomRecorder, Device, Error, Executor, ExecutorOptions};
 use std::cell::Cell;
@@ -32,7 +32,7 @@ enum Lie {
     WritesAnother,
     /// Copies an image that it doesn't name to what it writes.
     ReadsAnother,
-    /// Asks for an image that it doesn't name.
+    /// Asks twice for an image that it doesn't name, and for what it names as the wrong kind.
     Asks,
 }
 
@@ -77,7 +77,20 @@ fn frame() -> Frame {
 
 /// What two frames of a program leave, and the error of the second.
 fn drawn(device: &Device, lie: Lie, check_uses: bool) -> (Result<(), Error>, Vec<u32>, Vec<u32>) {
-    let plan = planned(device, &frame(), &Options { readable: check_uses, ..Options::default() });
+    let (mut frames, shown, last) = drawn_in(device, (lie, check_uses), &Cadence::Always, 2);
+    (frames.remove(1), shown, last)
+}
+
+/// What frames of a program leave whose pass `own` runs so, and the error of each.
+fn drawn_in(
+    device: &Device,
+    (lie, check_uses): (Lie, bool),
+    run: &Cadence,
+    frames: usize,
+) -> (Vec<Result<(), Error>>, Vec<u32>, Vec<u32>) {
+    let mut all = frame();
+    all.passes.iter_mut().filter(|pass| *pass.name == *"own").for_each(|pass| pass.run = run.clone());
+    let plan = planned(device, &all, &Options { readable: check_uses, ..Options::default() });
     let options = ExecutorOptions { check_uses, ..ExecutorOptions::default() };
     let mut executor = Executor::new(device, &plan, &mut library(SHADERS), &options).expect("an executor");
     let kept = Cell::new(None);
@@ -122,13 +135,16 @@ fn drawn(device: &Device, lie: Lie, check_uses: bool) -> (Result<(), Error>, Vec
                             .image_extent(vk::Extent3D { width: 4, height: 2, depth: 1 });
                         raw.cmd_copy_image_to_buffer(commands, other.raw, other.layout, list, &[region]);
                     }
-                    Lie::Asks => assert!(recorder.image("other").is_none()),
+                    Lie::Asks => {
+                        assert!(recorder.image("other").is_none() && recorder.image("other").is_none());
+                        assert!(recorder.image("list").is_none());
+                    }
                 }
             }
         });
-    executor.frame(&mut record).map(drop).unwrap_or_else(|error| assert!(lie != Lie::None, "{error}"));
-    let second = executor.frame(&mut record).map(drop);
-    (second, texels(&mut executor, "shown", 0), words(&mut executor, "last"))
+    let drawn: Vec<_> = (0..frames).map(|_| executor.frame(&mut record).map(drop)).collect();
+    drawn.iter().for_each(|done| assert!(lie != Lie::None || done.is_ok(), "{done:?}"));
+    (drawn, texels(&mut executor, "shown", 0), words(&mut executor, "last"))
 }
 
 /// What is told of the second frame of a program.
@@ -167,6 +183,27 @@ fn do_8_what_a_pass_writes_and_does_not_declare_is_told() {
     });
 }
 
+/// A pass that doesn't run in every frame is looked at in every second frame in which it runs, and one that runs once in that one.
+#[test]
+fn do_8_what_passes_write_that_run_now_and_then_is_told() {
+    on_each_driver_with(|device| {
+        let every = |count| Cadence::Every { count, at: 0 };
+        for (run, frames, wanted) in
+            [(Cadence::Once, 2, vec![0]), (every(2), 8, vec![2, 6]), (every(4), 16, vec![4, 12])]
+        {
+            let (drawn, ..) = drawn_in(&device, (Lie::WritesWhatItReads, true), &run, frames);
+            let contents = |it: &BrokenPromise| it.to_string().contains("1 of 32 bytes are others after it");
+            let told = |done: &Result<(), Error>| match done {
+                Ok(()) => false,
+                Err(Error::BrokenPromises { promises }) => promises.iter().any(contents),
+                Err(error) => panic!("{error}"),
+            };
+            let told: Vec<_> = (0..frames).filter(|frame| told(&drawn[*frame])).collect();
+            assert_eq!(told, wanted, "{run:?}");
+        }
+    });
+}
+
 #[test]
 fn do_8_what_a_pass_reads_and_does_not_declare_is_garbage() {
     on_each_driver_with(|device| {
@@ -186,12 +223,43 @@ fn do_8_what_a_program_asks_for_is_declared() {
     });
 }
 
-/// What is told of four frames of a pass that is to set all of an image and a buffer, and sets so many rows of the one and words of the
-/// other.
-fn told_of_parts(device: &Device, [rows, words]: [u32; 2]) -> Vec<String> {
+/// What an executor found and nobody has asked for, the one that goes on from it tells.
+#[test]
+fn do_8_what_nobody_waited_for_is_told_by_the_next_executor() {
     let mut small = Small::default();
-    let [mask, shown] = ["mask", "shown"].map(|name| small.image(name, Format::R32_UINT, [4, 2]));
-    let [list, last] = ["list", "last"].map(|name| small.buffer(name, 8));
+    let (list, shown) = (small.buffer("list", 8), small.image("shown", Format::R32_UINT, [4, 2]));
+    let own = Work::Custom { callback: "own".into() };
+    small.pass(transfer("own", own, &[(Resource::Buffer(list), WHOLE, true)]));
+    let nine = Work::Fill { value: FillValue::Bits([9, 0, 0, 0]) };
+    small.pass(transfer("paint", nine, &[(Resource::Image(shown), WHOLE, true)]));
+    small.image_output(shown);
+    small.buffer_output(list);
+    on_each_driver(|device| {
+        let plan = planned(device, &small.frame, &Options { readable: true, ..Options::default() });
+        let options = ExecutorOptions { check_uses: true, ..ExecutorOptions::default() };
+        let made = || Executor::new(device, &plan, &mut library(SHADERS), &options).expect("an executor");
+        let recorded = |lies: bool| {
+            Custom(move |recorder: &mut CustomRecorder<'_>| {
+                assert!(!lies || recorder.image("shown").is_none());
+                recorder.fill("list", FillValue::Bits([4, 0, 0, 0]));
+            })
+        };
+        let (mut before, mut next) = (made(), made());
+        before.submit(&mut recorded(true)).expect("on its way");
+        next.migrate_from(before).expect("they are of one device");
+        let told = next.frame(&mut recorded(false)).expect_err("it was not told yet").to_string();
+        assert!(told.contains("pass `own` doesn't name `shown`"), "{told}");
+        next.frame(&mut recorded(false)).expect("it was told");
+    });
+}
+
+/// What is told of the four frames in which a pass runs that is to set all of an image and a buffer, and sets so many rows of the one and
+/// words of the other. It runs in one of `every` frames.
+fn told_of_parts(device: &Device, [rows, words]: [u32; 2], every: u32) -> Vec<String> {
+    let mut small = Small::default();
+    let [mask, held, shown] = ["mask", "held", "shown"].map(|name| small.image(name, Format::R32_UINT, [4, 2]));
+    let [list, held_list, last] = ["list", "held_list", "last"].map(|name| small.buffer(name, 8));
+    let run = Cadence::every(every, 0);
     let own = Work::Custom { callback: "own".into() };
     let [image, buffer, kept] = [Resource::Image(mask), Resource::Buffer(list), Resource::Buffer(last)];
     let mut own = transfer("own", own, &[(image, WHOLE, true), (buffer, WHOLE, true)]);
@@ -200,9 +268,16 @@ fn told_of_parts(device: &Device, [rows, words]: [u32; 2]) -> Vec<String> {
         DeclaredUse::new(image, State { stages: Stages::CLEAR, accesses, layout: Layout::General }),
         DeclaredUse::new(buffer, State { stages: Stages::CLEAR, accesses, layout: Layout::Undefined }),
     ];
-    small.pass(own);
-    small.pass(draw("show", Draw::FullScreen).samples("source", mask, WHOLE).draws(shown, WHOLE, None));
-    small.pass(copy("take", (buffer, WHOLE), (kept, WHOLE)));
+    // What runs in the same frames shares memory as ever: what the pass sets isn't kept.
+    let held_buffer = Resource::Buffer(held_list);
+    let hold = draw("show", Draw::FullScreen).samples("source", mask, WHOLE).draws(held, WHOLE, None);
+    for pass in [own, hold, copy("hold", (buffer, WHOLE), (held_buffer, WHOLE))] {
+        small.pass(Pass { run: run.clone(), ..pass });
+    }
+    let mut show = draw("show", Draw::FullScreen).samples("source", held, WHOLE).draws(shown, WHOLE, None);
+    show.name = "show_held".into();
+    small.pass(show);
+    small.pass(copy("take", (held_buffer, WHOLE), (kept, WHOLE)));
     small.image_output(shown);
     small.buffer_output(last);
     let plan = planned(device, &small.frame, &Options { readable: true, ..Options::default() });
@@ -230,7 +305,7 @@ fn told_of_parts(device: &Device, [rows, words]: [u32; 2]) -> Vec<String> {
         }
     });
     let mut said = Vec::new();
-    for _ in 0..4 {
+    for _ in 0..4 * every {
         match executor.frame(&mut record) {
             Ok(_) => {}
             Err(Error::BrokenPromises { promises }) => said.extend(promises.iter().map(ToString::to_string)),
@@ -274,15 +349,17 @@ fn staged_zeros(device: &Device) -> (vk::Buffer, vk::DeviceMemory) {
 #[test]
 fn do_8_what_a_pass_declares_to_set_and_leaves_untouched_is_told() {
     on_each_driver_with(|device| {
-        let of_contents = |counts| {
-            let said = told_of_parts(&device, counts);
+        let of_contents = |counts, every| {
+            let said = told_of_parts(&device, counts, every);
             said.into_iter().filter(|it| !it.contains("validation layer")).collect::<Vec<_>>()
         };
-        assert_eq!(of_contents([2, 8]), [""; 0]);
+        assert_eq!(of_contents([2, 8], 1), [""; 0]);
         let image = "pass `own` declares `mask` as CLEAR, TRANSFER_WRITE, GENERAL, and 4 of 8 texels of mip 0, layer 0 are not set by \
                      it, the first is number 4";
         let buffer = "pass `own` declares `list` as CLEAR, TRANSFER_WRITE, and 1 of 8 words is not set by it, the first is number 7";
-        assert_eq!(of_contents([1, 7]), [image, buffer]);
+        for every in [1, 2, 4] {
+            assert_eq!(of_contents([1, 7], every), [image, buffer], "{every}");
+        }
     });
 }
 

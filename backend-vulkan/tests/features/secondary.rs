@@ -5,7 +5,8 @@ use crate::testing::{OVER_ALL, WHITE};
 use ash::vk;
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{Draw, Frame, Resource, Work};
-use framewright_graph::vulkan::{Format, Subresources};
+use framewright_graph::plan;
+use framewright_graph::vulkan::{FillValue, Format, Subresources};
 use framewright_vulkan::{
     CustomRecorder, Device, DrawSource, Error, Executor, ExecutorOptions, Recorder, ScopeFormats, SecondaryRecorder,
 };
@@ -35,6 +36,19 @@ const SHADERS: &[(&str, &str)] = &[
         layout(set = 0, binding = 0) uniform sampler2D source;
         layout(location = 0) out vec4 color;
         void main() { color = texelFetch(source, ivec2(gl_FragCoord.xy), 0); }",
+    ),
+    (
+        "here.frag",
+        "#version 460
+        #ifdef LOCAL_READ_source
+        layout(input_attachment_index = 0, set = 0, binding = 0) uniform subpassInput source;
+        #define HERE subpassLoad(source)
+        #else
+        layout(set = 0, binding = 0) uniform sampler2D source;
+        #define HERE texelFetch(source, ivec2(gl_FragCoord.xy), 0)
+        #endif
+        layout(location = 0) out vec4 color;
+        void main() { color = HERE; }",
     ),
 ];
 
@@ -355,35 +369,121 @@ fn do_8_threads_record_outside_of_scopes() {
     });
 }
 
-/// Has secondary command buffers of a pass, and doesn't know them.
-struct Forgetful;
+/// Says in turn whether it has secondary command buffers of a pass, and doesn't know them.
+struct Forgetful {
+    says: Vec<bool>,
+}
 
 impl DrawSource for Forgetful {
     fn record(&mut self, _: Draw, _: &mut Recorder<'_>) -> Result<u32, Error> {
         Ok(0)
     }
 
-    fn has_secondary(&mut self, _: &str) -> bool {
-        true
+    fn has_secondary(&mut self, callback: &str) -> bool {
+        assert_eq!(callback, "own");
+        self.says.pop().expect("it isn't asked again")
     }
+}
+
+const NOBODY: &str = "nobody has secondary command buffers of `own`, which the custom pass `own` asks for";
+const COUNTED: &str = "pass `own`, while recording: secondary command buffers while fragments are counted, which \
+                       they would have to inherit";
+
+/// Whether the device counts fragments.
+fn counts(device: &Device) -> bool {
+    let (instance, physical) = device.raw_physical();
+    // SAFETY: the physical device is the instance's.
+    unsafe { instance.get_physical_device_features(physical) }.pipeline_statistics_query == vk::TRUE
 }
 
 #[test]
 fn secondary_command_buffers_that_cannot_be_are_errors() {
     on_each_driver(|device| {
         let plan = planned(device, &frame(1), &Options::default());
-        let said = |fragment_counts| {
+        let said = |fragment_counts, says: &[bool]| {
             let options = ExecutorOptions { fragment_counts, ..ExecutorOptions::default() };
             let mut executor = Executor::new(device, &plan, &mut library(SHADERS), &options).expect("an executor");
-            executor.frame(&mut Forgetful).expect_err("it has none").to_string()
+            let drawn = executor.frame(&mut Forgetful { says: says.to_vec() });
+            drawn.expect_err("it has none").to_string()
         };
-        let nobody = "nobody has secondary command buffers of `own`, which the custom pass `own` asks for";
-        assert_eq!(said(false), nobody);
-        let (instance, physical) = device.raw_physical();
-        // SAFETY: the physical device is the instance's.
-        let counts = unsafe { instance.get_physical_device_features(physical) }.pipeline_statistics_query == vk::TRUE;
-        let counted = "pass `own`, while recording: secondary command buffers while fragments are counted, which they would have to \
-                       inherit";
-        assert_eq!(said(true), if counts { counted } else { nobody });
+        assert_eq!(said(false, &[true]), NOBODY);
+        assert_eq!(said(true, &[true]), if counts(device) { COUNTED } else { NOBODY });
+        // What it said when the scope began holds, also where it would say another thing later.
+        assert_eq!(said(false, &[false, true]), NOBODY);
+        let panicked = "pass `own`, while recording: the program panicked: it isn't asked again";
+        assert_eq!(said(false, &[]), panicked);
+    });
+}
+
+#[test]
+fn secondary_command_buffers_outside_of_scopes_need_that_no_fragments_are_counted() {
+    let mut small = Small::default();
+    let list = small.buffer("list", THREADS.into());
+    let own = Work::Custom { callback: "own".into() };
+    small.pass(transfer("own", own, &[(Resource::Buffer(list), WHOLE, true)]));
+    small.buffer_output(list);
+    on_each_driver(|device| {
+        let plan = planned(device, &small.frame, &Options::default());
+        let options = ExecutorOptions { fragment_counts: true, ..ExecutorOptions::default() };
+        let mut executor = Executor::new(device, &plan, &mut library(&[]), &options).expect("an executor");
+        let pool = vk::CommandPoolCreateInfo::default().queue_family_index(device.graphics_queue_family());
+        let raw = device.raw();
+        // SAFETY: the device lives, and the pool is new; the command buffer holds nothing.
+        let (pool, empty) = unsafe {
+            let pool = raw.create_command_pool(&pool, None).expect("a pool");
+            let info = vk::CommandBufferAllocateInfo::default()
+                .command_pool(pool)
+                .level(vk::CommandBufferLevel::SECONDARY)
+                .command_buffer_count(1);
+            let empty = raw.allocate_command_buffers(&info).expect("a command buffer")[0];
+            let inherited = vk::CommandBufferInheritanceInfo::default();
+            let begin = vk::CommandBufferBeginInfo::default()
+                .flags(vk::CommandBufferUsageFlags::SIMULTANEOUS_USE)
+                .inheritance_info(&inherited);
+            raw.begin_command_buffer(empty, &begin).expect("begun");
+            raw.end_command_buffer(empty).expect("ended");
+            (pool, empty)
+        };
+        let mut record = Custom(|recorder: &mut CustomRecorder<'_>| {
+            recorder.fill("list", FillValue::Bits([4, 0, 0, 0]));
+            // SAFETY: it was recorded for the family, touches nothing, and lives until the frame was waited for.
+            unsafe { recorder.execute(&[empty]) };
+        });
+        let drawn = executor.frame(&mut record).map(drop).map_err(|error| error.to_string());
+        assert_eq!(drawn, if counts(device) { Err(COUNTED.to_owned()) } else { Ok(()) });
+        drop(executor);
+        // SAFETY: the frame was waited for, or never submitted.
+        unsafe { raw.destroy_command_pool(pool, None) };
+    });
+}
+
+/// A scope whose passes read what it drew can't be suspended: how passes see its attachments would be lost. The compiler makes none with a
+/// custom pass, and a Plan by hand may.
+#[test]
+fn secondary_command_buffers_beside_local_reads_are_errors() {
+    let mut small = Small::default();
+    let [drawn, shown] = ["drawn", "shown"].map(|name| small.image(name, Format::R8G8B8A8_UNORM, SIZE));
+    small.pass(draw("number", Draw::FullScreen).draws(drawn, WHOLE, None));
+    let mut own = draw("own", Draw::FullScreen);
+    own.work = Work::Draw { draw: Draw::FullScreen, shader: "own".into(), discards: true, per_sample: false };
+    small.pass(own.draws(drawn, WHOLE, None));
+    let mut read = draw("here", Draw::FullScreen).samples("source", drawn, WHOLE).draws(shown, WHOLE, None);
+    read.sampled[0].own_pixel = true;
+    small.pass(read);
+    small.image_output(shown);
+    on_each_driver(|device| {
+        let mut plan = planned(device, &small.frame, &Options::default());
+        if !device.profile().local_read {
+            return eprintln!("SKIPPED: {} has no local reads", device.summary().name);
+        }
+        let plan::Work::Render(scope) = &mut plan.steps[0].work else { panic!("it draws") };
+        assert_eq!(scope.passes.len(), 3);
+        scope.passes[1].draw = Some(Draw::Custom);
+        let mut executor =
+            Executor::new(device, &plan, &mut library(SHADERS), &ExecutorOptions::default()).expect("an executor");
+        let drawn = executor.frame(&mut Forgetful { says: vec![true; 2] }).expect_err("it can't be").to_string();
+        let wanted = "pass `own`, while recording: secondary command buffers in a scope whose passes read what it drew, or \
+                      draw into others of its attachments";
+        assert_eq!(drawn, wanted);
     });
 }
