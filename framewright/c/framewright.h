@@ -300,7 +300,7 @@ typedef struct {
     FramewrightEye eye;
 } FramewrightPassImage;
 
-// Records a custom pass: commands that touch what the pipeline says that the pass touches, and what is the program's own. Returns 0 if it
+// Records a pass: commands that touch what the pipeline says that the pass touches, and what is the program's own. Returns 0 if it
 // doesn't know the pass, which is an error of the frame. No function is called for the renderer meanwhile, and no
 // exception or longjmp leaves it.
 typedef uint32_t (*FramewrightRecord)(void *context, const FramewrightPass *pass);
@@ -341,13 +341,6 @@ typedef struct {
     FramewrightNames shader_compilers;
     // The program hands addresses of buffers out in its sets, and vouches for the shaders that follow them. 0 is false.
     uint32_t addresses;
-} FramewrightRendererOptions;
-
-// Records a pass: commands that touch what the pipeline says that the pass touches, and what is the program's own. Returns 0 if it
-// doesn't know the pass, which is an error of the frame. No function is called for the renderer meanwhile, and no
-// exception or longjmp leaves it.
-typedef uint32_t (*FramewrightRecord)(void *context, const FramewrightPass *pass);
-
     // Whether what custom passes do is held against what the pipeline says of them, to look for mistakes: 1. A broken promise fails the call
     // that waits for the frame, or for room for another one, and the frame is done all the same. docs/embedding.md has more.
     uint32_t check_uses;
@@ -542,7 +535,8 @@ FramewrightStatus framewright_pass_draw(const FramewrightPass *pass,
                                         uint32_t vertex_count,
                                         uint32_t first_instance,
                                         uint32_t instance_count);
-// Has `record` record custom passes, and gives it `context`; NULL: nobody does.
+
+// Has `record` record custom passes, and draws of objects and sky where no scene was set, and gives it `context`; NULL: nobody does.
 FramewrightStatus framewright_renderer_set_recorder(FramewrightRenderer *renderer,
                                                     FramewrightRecord record,
                                                     void *context);
@@ -584,11 +578,6 @@ FramewrightStatus framewright_renderer_set_extent(FramewrightRenderer *renderer,
 // Shows a scene, and tells its facts. NULL: none, and it may hold everything; passes that draw objects or the sky are an error then.
 FramewrightStatus framewright_renderer_set_scene(FramewrightRenderer *renderer,
                                                  const FramewrightScene *scene);
-
-// Has `record` record custom passes, and draws of objects and sky where no scene was set, and gives it `context`; NULL: nobody does.
-FramewrightStatus framewright_renderer_set_recorder(FramewrightRenderer *renderer,
-                                                    FramewrightRecord record,
-                                                    void *context);
 
 // Tells the facts of a scene that the program draws itself; NULL: it may hold everything.
 FramewrightStatus framewright_renderer_set_facts(FramewrightRenderer *renderer, const FramewrightFacts *facts);
