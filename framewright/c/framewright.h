@@ -253,30 +253,30 @@ typedef struct {
     VkCommandBuffer commands;
     // Whether it stands inside a rendering scope with the pass's targets, which is left open; else it stands outside of one.
     uint32_t in_scope;
-    // Width of the targets, of two eyes of one's; 0 outside of a scope.
+    // Width of the targets; where the pass is for both eyes, of one eye's picture; 0 outside of a scope.
     uint32_t width;
-    // Height of the targets; 0 outside of a scope.
+    // Height of the same; 0 outside of a scope.
     uint32_t height;
     // The number of the frame, as `framewright_renderer_frame` returns it.
     uint64_t frame;
-    // Leads `framewright_pass_image` and `framewright_pass_buffer` to what the pass accesses.
+    // Leads `framewright_pass_image`, `framewright_pass_buffer` and `framewright_pass_draw` to the pass.
     const FramewrightResources *resources;
     // The queue family that the commands are for: that for graphics, or that for compute if the pipeline says `queue: Any`.
     uint32_t queue_family;
     // What it draws.
     FramewrightDraw draw;
-    // The eye that it is recorded for, where it is recorded for one after the other.
+    // The eye that it is recorded for, where it is recorded for each eye by itself.
     FramewrightEye eye;
-    // The FramewrightStereo in which it is recorded for both eyes at once; `FRAMEWRIGHT_STEREO_OFF`: it isn't.
+    // The FramewrightStereo in which it is recorded for both eyes at once; `FRAMEWRIGHT_STEREO_OFF` if it isn't.
     uint32_t both_eyes;
-    // How images hold both eyes' parts that it is recorded for.
+    // How images hold both eyes' parts, where it is recorded for both at once.
     FramewrightEyeForm eye_form;
     // Inside a scope for both eyes, where each eye's picture lies, the left one's first; else 0.
     FramewrightEyeTarget eye_targets[2];
     // Inside a scope, what pipelines of the program's must fit; NULL outside of one.
     const FramewrightFormats *formats;
-    // What secondary command buffers are begun with, beside `RENDER_PASS_CONTINUE`, for a pass that `framewright_renderer_set_secondary` says
-    // has them: then `commands` takes `vkCmdExecuteCommands` and nothing else. NULL for other passes.
+    // For a pass of which `framewright_renderer_set_secondary` says that it has secondary command buffers, what they are begun with, beside
+    // `RENDER_PASS_CONTINUE`; `commands` then takes `vkCmdExecuteCommands` and nothing else. NULL for other passes.
     const VkCommandBufferInheritanceRenderingInfo *inheritance;
 } FramewrightPass;
 
@@ -299,11 +299,6 @@ typedef struct {
     // The eye whose part alone is meant, of an image that holds both eyes'.
     FramewrightEye eye;
 } FramewrightPassImage;
-
-// Records a custom pass: commands that touch what the pipeline says that the pass touches, and what is the program's own. Returns 0 if it
-// doesn't know the pass, which is an error of the frame. No function is called for the renderer meanwhile, and no
-// exception or longjmp leaves it.
-typedef uint32_t (*FramewrightRecord)(void *context, const FramewrightPass *pass);
 
 // The layout of a descriptor set that the program makes and binds itself.
 typedef struct {
@@ -341,13 +336,6 @@ typedef struct {
     FramewrightNames shader_compilers;
     // The program hands addresses of buffers out in its sets, and vouches for the shaders that follow them. 0 is false.
     uint32_t addresses;
-} FramewrightRendererOptions;
-
-// Records a pass: commands that touch what the pipeline says that the pass touches, and what is the program's own. Returns 0 if it
-// doesn't know the pass, which is an error of the frame. No function is called for the renderer meanwhile, and no
-// exception or longjmp leaves it.
-typedef uint32_t (*FramewrightRecord)(void *context, const FramewrightPass *pass);
-
     // Whether what custom passes do is held against what the pipeline says of them, to look for mistakes: 1. A broken promise fails the call
     // that waits for the frame, or for room for another one, and the frame is done all the same. docs/embedding.md has more.
     uint32_t check_uses;
@@ -425,6 +413,11 @@ typedef struct {
     // How many.
     size_t signal_count;
 } FramewrightSubmission;
+
+// Records a pass: commands that touch what the pipeline says that the pass touches, and what is the program's own. Returns 0 if it
+// doesn't know the pass, which is an error of the frame. No function is called for the renderer meanwhile, and no
+// exception or longjmp leaves it.
+typedef uint32_t (*FramewrightRecord)(void *context, const FramewrightPass *pass);
 
 // The state of an image or buffer: what used it last, or uses it next.
 typedef struct {
@@ -529,35 +522,27 @@ const char *framewright_scene_mistake(const FramewrightScene *scene,
 // Frees the handle of a scene. Renderers that show it go on.
 void framewright_scene_free(FramewrightScene *scene);
 
-// Tells an image that a pass accesses, by the pipeline's name.
-FramewrightStatus framewright_pass_image(const FramewrightPass *pass, const char *name, FramewrightPassImage *image);
+// Tells an image that a pass accesses, by the pipeline's name. Any thread may ask until the callback of the pass returns.
+FramewrightStatus framewright_pass_image(const FramewrightPass *pass,
+                                         const char *name,
+                                         FramewrightPassImage *image);
 
-// Tells a buffer that a pass accesses, by the pipeline's name.
-FramewrightStatus framewright_pass_buffer(const FramewrightPass *pass, const char *name, VkBuffer *buffer);
+// Tells a buffer that a pass accesses, by the pipeline's name. Any thread may ask until the callback of the pass returns.
+FramewrightStatus framewright_pass_buffer(const FramewrightPass *pass,
+                                          const char *name,
+                                          VkBuffer *buffer);
 
 // Draws consecutive vertices of a pass inside a rendering scope whose shader is the pipeline's, for both eyes where the pass is for both.
-// Shaders see `first_instance` as their first `gl_InstanceIndex`. What is misused, as a set that isn't bound, is the error of the frame.
+// Shaders see `first_instance` as their first `gl_InstanceIndex`. It records into `commands` of the pass, which one thread does at a time.
+//
+// It draws with the pipeline and sets that are bound, and the pass begins with its own. Once the program has bound others, or has set push
+// constants, it isn't called for this pass any more. A shader that reads vertex buffers, bind groups or push constants of a draw interface
+// can't be drawn. That, and a set of the program's that isn't bound, is the error of the frame.
 FramewrightStatus framewright_pass_draw(const FramewrightPass *pass,
                                         uint32_t first_vertex,
                                         uint32_t vertex_count,
                                         uint32_t first_instance,
                                         uint32_t instance_count);
-// Has `record` record custom passes, and gives it `context`; NULL: nobody does.
-FramewrightStatus framewright_renderer_set_recorder(FramewrightRenderer *renderer,
-                                                    FramewrightRecord record,
-                                                    void *context);
-
-// Says whether the draws of the custom passes that the pipeline calls `custom`, inside rendering scopes, come in secondary command buffers,
-// which threads of the program record: 0, as at first, or 1. Custom passes outside of scopes execute such ones without a word.
-FramewrightStatus framewright_renderer_set_secondary(FramewrightRenderer *renderer,
-                                                     const char *custom,
-                                                     uint32_t has);
-
-// Tells what secondary command buffers of the pass of this name are begun with, before the frame: as `inheritance` of the pass. It begins
-// with a plan, as a frame does. The formats that it leads to live until this function is called again for the renderer, or it is freed.
-FramewrightStatus framewright_renderer_inheritance(FramewrightRenderer *renderer,
-                                                   const char *pass,
-                                                   VkCommandBufferInheritanceRenderingInfo *inheritance);
 
 // Reads the pipeline in the file `pipeline`; where there is none, the shipped one of that name. Until it is told otherwise, the frame
 // has 1280×720 texels, and the scene may hold everything. `options` may be NULL.
@@ -584,11 +569,6 @@ FramewrightStatus framewright_renderer_set_extent(FramewrightRenderer *renderer,
 // Shows a scene, and tells its facts. NULL: none, and it may hold everything; passes that draw objects or the sky are an error then.
 FramewrightStatus framewright_renderer_set_scene(FramewrightRenderer *renderer,
                                                  const FramewrightScene *scene);
-
-// Has `record` record custom passes, and draws of objects and sky where no scene was set, and gives it `context`; NULL: nobody does.
-FramewrightStatus framewright_renderer_set_recorder(FramewrightRenderer *renderer,
-                                                    FramewrightRecord record,
-                                                    void *context);
 
 // Tells the facts of a scene that the program draws itself; NULL: it may hold everything.
 FramewrightStatus framewright_renderer_set_facts(FramewrightRenderer *renderer, const FramewrightFacts *facts);
@@ -681,12 +661,32 @@ FramewrightStatus framewright_renderer_record_into(FramewrightRenderer *renderer
 // Takes back a frame that was recorded into a command buffer, which was not and will not be submitted.
 FramewrightStatus framewright_renderer_discard(FramewrightRenderer *renderer, uint64_t frame);
 
+// Has `record` record custom passes, and draws of objects and sky where no scene was set, and gives it `context`; NULL: nobody does.
+FramewrightStatus framewright_renderer_set_recorder(FramewrightRenderer *renderer,
+                                                    FramewrightRecord record,
+                                                    void *context);
+
+// Says whether the draws of the custom passes that the pipeline calls `custom`, inside rendering scopes, come in secondary command buffers,
+// which threads of the program record: 0, as at first, or 1. Custom passes outside of scopes execute such ones without a word.
+//
+// A secondary command buffer isn't recorded anew or freed until each frame was waited for that executes it. One that is executed again before
+// that, as by the next of several frames in flight or by the same pass of the other eye, is begun with `SIMULTANEOUS_USE`; or there are
+// several of it.
+FramewrightStatus framewright_renderer_set_secondary(FramewrightRenderer *renderer,
+                                                     const char *custom,
+                                                     uint32_t has);
+
 // Tells what pipelines must fit that the program binds itself in the pass of this name. It begins with a plan, as a frame does. What it
-// points to lives until the next call of this function for the renderer, or until it is freed. `FRAMEWRIGHT_STATUS_MISUSE`: no rendering
-// scope has such a pass.
+// points to lives as long as the renderer. `FRAMEWRIGHT_STATUS_MISUSE`: no rendering scope has such a pass.
 FramewrightStatus framewright_renderer_formats(FramewrightRenderer *renderer,
                                                const char *pass,
                                                FramewrightFormats *formats);
+
+// Tells what secondary command buffers of the pass of this name are begun with, before the frame: as `inheritance` of the pass. All else is as
+// for `framewright_renderer_formats`.
+FramewrightStatus framewright_renderer_inheritance(FramewrightRenderer *renderer,
+                                                   const char *pass,
+                                                   VkCommandBufferInheritanceRenderingInfo *inheritance);
 
 // Tells how the pass of this name is recorded for both eyes at once: the FramewrightStereo, and how images hold both eyes' parts. Both are
 // 0 if it isn't. It begins with a plan, as a frame does. `form` may be NULL.

@@ -213,7 +213,9 @@ impl<'f> CustomRecorder<'f> {
     ///
     /// # Safety
     /// They are of this device and of [`CustomRecorder::queue_family`], recorded and ended, and touch what the pass names, as the Plan says,
-    /// and the program's own resources. No other thread uses them or their pools meanwhile, and they live until the frame was waited for.
+    /// and the program's own resources. No other thread uses them or their pools meanwhile. They live, and aren't recorded anew, until each
+    /// frame was waited for that executes them. One that is executed again before that, as by the next of several frames in flight or by the
+    /// same pass of the other eye, was begun with `SIMULTANEOUS_USE`.
     pub unsafe fn execute(&mut self, secondary: &[vk::CommandBuffer]) {
         if secondary.is_empty() {
             return;

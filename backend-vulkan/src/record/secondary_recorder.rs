@@ -131,7 +131,9 @@ impl<'f> SecondaryRecorder<'f> {
     /// # Safety
     /// They are of this device and of [`SecondaryRecorder::queue_family`], recorded and ended, begun with
     /// [`SecondaryRecorder::inheritance`], and hold draws into the scope's attachments that touch nothing else but what the pass names and
-    /// the program's own resources. No other thread uses them or their pools meanwhile, and they live until the frame was waited for.
+    /// the program's own resources. No other thread uses them or their pools meanwhile. They live, and aren't recorded anew, until each frame
+    /// was waited for that executes them. One that is executed again before that, as by the next of several frames in flight or by the same
+    /// pass of the other eye, was begun with `SIMULTANEOUS_USE`.
     pub unsafe fn execute(&mut self, secondary: &[vk::CommandBuffer]) {
         if !secondary.is_empty() {
             // SAFETY: the scope was begun for secondary command buffers, and the caller's word.

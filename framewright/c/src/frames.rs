@@ -1,7 +1,8 @@
 //! Frames: planned, drawn, submitted among the program's own work, or recorded into its command buffers.
 
-use crate::arguments::{Structure, list, optional_output, output, reference, structure, text};
-use crate::passes::{Callback, FramewrightDraw, FramewrightEyeForm, FramewrightFormats, both};
+use crate::arguments::{Structure, list, optional_output, reference, structure, text};
+use crate::callback::Callback;
+use crate::passes::FramewrightDraw;
 use crate::renderer::{FramewrightChange, FramewrightRenderer, State, with};
 use crate::status::{FramewrightStatus, Problem};
 use framewright::vulkan::ash::vk;
@@ -398,46 +399,6 @@ pub unsafe extern "C" fn framewright_renderer_discard(
                 executor.discard(frame);
             }
             Ok(())
-        })
-    }
-}
-
-/// Tells what pipelines must fit that the program binds itself in the pass of this name. It begins with a plan, as a frame does. What it
-/// points to lives until the next call of this function for the renderer, or until it is freed. `FRAMEWRIGHT_STATUS_MISUSE`: no rendering
-/// scope has such a pass.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn framewright_renderer_formats(
-    renderer: *mut FramewrightRenderer,
-    pass: *const c_char,
-    formats: *mut FramewrightFormats,
-) -> FramewrightStatus {
-    // SAFETY: the caller's word.
-    unsafe {
-        with(renderer, |state| {
-            let name = text(pass, "pass")?;
-            let found = state.executor()?.formats(name);
-            let found =
-                found.ok_or_else(|| Problem::Misuse(format!("no rendering scope has a pass of the name `{name}`")))?;
-            output(formats, "formats", FramewrightFormats::of(state.formats.insert(found)))
-        })
-    }
-}
-
-/// Tells how the pass of this name is recorded for both eyes at once: the FramewrightStereo, and how images hold both eyes' parts. Both are
-/// 0 if it isn't. It begins with a plan, as a frame does. `form` may be NULL.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn framewright_renderer_both_eyes(
-    renderer: *mut FramewrightRenderer,
-    pass: *const c_char,
-    stereo: *mut u32,
-    form: *mut FramewrightEyeForm,
-) -> FramewrightStatus {
-    // SAFETY: the caller's word.
-    unsafe {
-        with(renderer, |state| {
-            let (found, form_of) = both(state.executor()?.both_eyes(text(pass, "pass")?));
-            optional_output(form, form_of);
-            output(stereo, "stereo", found)
         })
     }
 }

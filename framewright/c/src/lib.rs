@@ -11,11 +11,13 @@
 
 mod adopt;
 mod arguments;
+mod callback;
 mod device;
 mod frames;
 mod images;
 mod last_error;
 mod passes;
+mod recorder;
 mod renderer;
 mod scene;
 mod sets;
@@ -34,11 +36,10 @@ pub use device::{
     framewright_device_open,
 };
 pub use frames::{
-    FramewrightChoice, FramewrightSemaphore, FramewrightSubmission, framewright_renderer_both_eyes,
-    framewright_renderer_discard, framewright_renderer_formats, framewright_renderer_frame,
-    framewright_renderer_prepare, framewright_renderer_record_into, framewright_renderer_run_all,
-    framewright_renderer_set_dirty, framewright_renderer_set_frame_number, framewright_renderer_set_time,
-    framewright_renderer_submit, framewright_renderer_wait,
+    FramewrightChoice, FramewrightSemaphore, FramewrightSubmission, framewright_renderer_discard,
+    framewright_renderer_frame, framewright_renderer_prepare, framewright_renderer_record_into,
+    framewright_renderer_run_all, framewright_renderer_set_dirty, framewright_renderer_set_frame_number,
+    framewright_renderer_set_time, framewright_renderer_submit, framewright_renderer_wait,
 };
 pub use images::{
     FramewrightOwner, FramewrightState, framewright_renderer_image, framewright_renderer_image_info,
@@ -49,8 +50,11 @@ pub use last_error::{FramewrightMistake, framewright_last_error, framewright_las
 pub use passes::{
     FramewrightDraw, FramewrightEye, FramewrightEyeForm, FramewrightEyeTarget, FramewrightFormats, FramewrightPass,
     FramewrightPassImage, FramewrightRecord, FramewrightResources, framewright_pass_buffer, framewright_pass_draw,
-    framewright_pass_image, framewright_renderer_inheritance, framewright_renderer_set_recorder,
-    framewright_renderer_set_secondary,
+    framewright_pass_image,
+};
+pub use recorder::{
+    framewright_renderer_both_eyes, framewright_renderer_formats, framewright_renderer_inheritance,
+    framewright_renderer_set_recorder, framewright_renderer_set_secondary,
 };
 pub use renderer::{
     FramewrightChange, FramewrightFacts, FramewrightFeature, FramewrightRenderer, FramewrightRendererOptions,

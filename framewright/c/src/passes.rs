@@ -1,14 +1,11 @@
 //! Passes that the program records.
 
 use crate::arguments::{output, reference, text};
-use crate::last_error::{self, call};
-use crate::renderer::{FramewrightRenderer, with};
+use crate::last_error::call;
 use crate::status::{FramewrightStatus, Problem};
 use framewright::graph::frame::{Eye, EyeForm, Stereo};
-use framewright::vulkan::Error;
 use framewright::vulkan::ash::vk;
-use framewright::{CustomImage, CustomRecorder, EyeTarget, Recorder, ScopeFormats, SecondaryRecorder};
-use std::cell::RefCell;
+use framewright::{CustomImage, EyeTarget, ScopeFormats};
 use std::ffi::{c_char, c_void};
 use std::ops::Range;
 use std::ptr;
@@ -120,91 +117,42 @@ pub struct FramewrightPass<'p> {
     pub commands: vk::CommandBuffer,
     /// Whether it stands inside a rendering scope with the pass's targets, which is left open; else it stands outside of one.
     pub in_scope: u32,
-    /// Width of the targets, of two eyes of one's; 0 outside of a scope.
+    /// Width of the targets; where the pass is for both eyes, of one eye's picture; 0 outside of a scope.
     pub width: u32,
-    /// Height of the targets; 0 outside of a scope.
+    /// Height of the same; 0 outside of a scope.
     pub height: u32,
     /// The number of the frame, as `framewright_renderer_frame` returns it.
     pub frame: u64,
-    /// Leads `framewright_pass_image` and `framewright_pass_buffer` to what the pass accesses.
+    /// Leads `framewright_pass_image`, `framewright_pass_buffer` and `framewright_pass_draw` to the pass.
     pub resources: *const FramewrightResources<'p>,
     /// The queue family that the commands are for: that for graphics, or that for compute if the pipeline says `queue: Any`.
     pub queue_family: u32,
     /// What it draws.
     pub draw: FramewrightDraw,
-    /// The eye that it is recorded for, where it is recorded for one after the other.
+    /// The eye that it is recorded for, where it is recorded for each eye by itself.
     pub eye: FramewrightEye,
-    /// The FramewrightStereo in which it is recorded for both eyes at once; `FRAMEWRIGHT_STEREO_OFF`: it isn't.
+    /// The FramewrightStereo in which it is recorded for both eyes at once; `FRAMEWRIGHT_STEREO_OFF` if it isn't.
     pub both_eyes: u32,
-    /// How images hold both eyes' parts that it is recorded for.
+    /// How images hold both eyes' parts, where it is recorded for both at once.
     pub eye_form: FramewrightEyeForm,
     /// Inside a scope for both eyes, where each eye's picture lies, the left one's first; else 0.
     pub eye_targets: [FramewrightEyeTarget; 2],
     /// Inside a scope, what pipelines of the program's must fit; NULL outside of one.
     pub formats: *const FramewrightFormats,
-    /// What secondary command buffers are begun with, beside `RENDER_PASS_CONTINUE`, for a pass that `framewright_renderer_set_secondary` says
-    /// has them: then `commands` takes `vkCmdExecuteCommands` and nothing else. NULL for other passes.
+    /// For a pass of which `framewright_renderer_set_secondary` says that it has secondary command buffers, what they are begun with, beside
+    /// `RENDER_PASS_CONTINUE`; `commands` then takes `vkCmdExecuteCommands` and nothing else. NULL for other passes.
     pub inheritance: *const vk::CommandBufferInheritanceRenderingInfo<'p>,
 }
 
 /// What a pass accesses.
-pub struct FramewrightResources<'p>(&'p dyn PassResources);
+pub struct FramewrightResources<'p>(pub(crate) &'p dyn PassResources);
 
-/// What the program asks of a pass while it records it.
-trait PassResources {
+/// What the program asks of a pass while it records it, on any of its threads.
+pub(crate) trait PassResources: Sync {
     fn image(&self, name: &str) -> Option<CustomImage>;
     fn buffer(&self, name: &str) -> Option<vk::Buffer>;
     /// Draws vertices; if that can't be, says why.
     fn draw(&self, vertices: Range<u32>, instances: Range<u32>) -> Result<(), &'static str>;
-}
-
-impl PassResources for CustomRecorder<'_> {
-    fn image(&self, name: &str) -> Option<CustomImage> {
-        CustomRecorder::image(self, name)
-    }
-
-    fn buffer(&self, name: &str) -> Option<vk::Buffer> {
-        CustomRecorder::buffer(self, name)
-    }
-
-    fn draw(&self, _: Range<u32>, _: Range<u32>) -> Result<(), &'static str> {
-        Err("the pass stands outside of rendering scopes")
-    }
-}
-
-impl PassResources for SecondaryRecorder<'_> {
-    fn image(&self, name: &str) -> Option<CustomImage> {
-        SecondaryRecorder::image(self, name)
-    }
-
-    fn buffer(&self, name: &str) -> Option<vk::Buffer> {
-        SecondaryRecorder::buffer(self, name)
-    }
-
-    fn draw(&self, _: Range<u32>, _: Range<u32>) -> Result<(), &'static str> {
-        Err("the draws of the pass come in secondary command buffers")
-    }
-}
-
-/// A pass inside a scope.
-struct Inside<'p, 'f>(RefCell<&'p mut Recorder<'f>>);
-
-impl PassResources for Inside<'_, '_> {
-    fn image(&self, name: &str) -> Option<CustomImage> {
-        self.0.borrow().image(name)
-    }
-
-    fn buffer(&self, name: &str) -> Option<vk::Buffer> {
-        self.0.borrow().buffer(name)
-    }
-
-    fn draw(&self, vertices: Range<u32>, instances: Range<u32>) -> Result<(), &'static str> {
-        let mut recorder = self.0.borrow_mut();
-        // The program may have set viewport and scissor since.
-        let _ = recorder.raw();
-        recorder.draw(vertices, instances);
-        Ok(())
-    }
 }
 
 /// Records a pass: commands that touch what the pipeline says that the pass touches, and what is the program's own. Returns 0 if it
@@ -234,135 +182,19 @@ pub struct FramewrightPassImage {
     pub eye: FramewrightEye,
 }
 
-/// The program's callback, and what it is given.
-#[derive(Clone, Copy)]
-pub(crate) struct Callback {
-    pub(crate) record: unsafe extern "C" fn(*mut c_void, *const FramewrightPass<'_>) -> u32,
-    pub(crate) context: *mut c_void,
-}
-
-impl Callback {
-    /// Has the program record what stands inside a rendering scope.
-    pub(crate) fn inside(&self, kind: FramewrightDraw, recorder: &mut Recorder<'_>) -> Result<u32, Error> {
-        let (name, custom) = (recorder.pass().to_owned(), recorder.shader().to_owned());
-        let ([width, height], frame) = (recorder.target_extent(), recorder.frame());
-        let (queue_family, own_eye) = (recorder.queue_family(), eye(recorder.eye()));
-        let (both_eyes, eye_form) = both(recorder.both_eyes());
-        let eye_targets = targets(recorder.eye_targets());
-        let formats = recorder.formats().clone();
-        let formats = FramewrightFormats::of(&formats);
-        let commands = recorder.raw();
-        let inside = Inside(RefCell::new(recorder));
-        let resources = FramewrightResources(&inside);
-        let pass = |name, custom| FramewrightPass {
-            name,
-            custom,
-            commands,
-            in_scope: 1,
-            width,
-            height,
-            frame,
-            resources: &raw const resources,
-            queue_family,
-            draw: kind,
-            eye: own_eye,
-            both_eyes,
-            eye_form,
-            eye_targets,
-            formats: &raw const formats,
-            inheritance: ptr::null(),
-        };
-        self.call(&name, &custom, pass).map(|()| 1)
-    }
-
-    /// Has the program execute its secondary command buffers inside a rendering scope.
-    pub(crate) fn secondary(&self, custom: &str, recorder: &mut SecondaryRecorder<'_>) -> Result<u32, Error> {
-        let commands = recorder.raw();
-        let ([width, height], frame) = (recorder.target_extent(), recorder.frame());
-        let (queue_family, inheritance) = (recorder.queue_family(), recorder.inheritance());
-        let (both_eyes, eye_form) = both(recorder.both_eyes());
-        let formats = FramewrightFormats::of(recorder.formats());
-        let resources = FramewrightResources(&*recorder);
-        let pass = |name, custom| FramewrightPass {
-            name,
-            custom,
-            commands,
-            in_scope: 1,
-            width,
-            height,
-            frame,
-            resources: &raw const resources,
-            queue_family,
-            draw: FramewrightDraw::Custom,
-            eye: eye(recorder.eye()),
-            both_eyes,
-            eye_form,
-            eye_targets: targets(recorder.eye_targets()),
-            formats: &raw const formats,
-            inheritance: &raw const inheritance,
-        };
-        self.call(recorder.pass(), custom, pass).map(|()| 1)
-    }
-
-    /// Has the program record what stands outside of rendering scopes.
-    pub(crate) fn outside(&self, custom: &str, recorder: &mut CustomRecorder<'_>) -> Result<(), Error> {
-        let commands = recorder.raw();
-        let (queue_family, frame) = (recorder.queue_family(), recorder.frame());
-        let own_eye = eye(recorder.view().and_then(|view| view.eye).map(|of| of.eye));
-        let (both_eyes, eye_form) = both(recorder.both_eyes());
-        let resources = FramewrightResources(&*recorder);
-        let pass = |name, custom| FramewrightPass {
-            name,
-            custom,
-            commands,
-            in_scope: 0,
-            width: 0,
-            height: 0,
-            frame,
-            resources: &raw const resources,
-            queue_family,
-            draw: FramewrightDraw::Custom,
-            eye: own_eye,
-            both_eyes,
-            eye_form,
-            eye_targets: NO_EYES,
-            formats: ptr::null(),
-            inheritance: ptr::null(),
-        };
-        self.call(recorder.pass(), custom, pass)
-    }
-
-    fn call<'p>(
-        &self,
-        name: &str,
-        custom: &str,
-        pass: impl FnOnce(*const c_char, *const c_char) -> FramewrightPass<'p>,
-    ) -> Result<(), Error> {
-        let (name_of_c, custom_of_c) = (last_error::text(name), last_error::text(custom));
-        let pass = pass(name_of_c.as_ptr(), custom_of_c.as_ptr());
-        // SAFETY: the program's word: it takes a pass and what was given with it.
-        match unsafe { (self.record)(self.context, &raw const pass) } {
-            0 => Err(Error::DrawSource {
-                what: format!("the program doesn't record `{custom}`, which pass `{name}` asks for"),
-            }),
-            _ => Ok(()),
-        }
-    }
-}
-
-const NO_EYES: [FramewrightEyeTarget; 2] = [FramewrightEyeTarget {
+pub(crate) const NO_EYES: [FramewrightEyeTarget; 2] = [FramewrightEyeTarget {
     viewport: vk::Viewport { x: 0.0, y: 0.0, width: 0.0, height: 0.0, min_depth: 0.0, max_depth: 0.0 },
     scissor: vk::Rect2D { offset: vk::Offset2D { x: 0, y: 0 }, extent: vk::Extent2D { width: 0, height: 0 } },
     layer: 0,
 }; 2];
 
-fn targets(eyes: Option<[EyeTarget; 2]>) -> [FramewrightEyeTarget; 2] {
+pub(crate) fn targets(eyes: Option<[EyeTarget; 2]>) -> [FramewrightEyeTarget; 2] {
     eyes.map_or(NO_EYES, |eyes| {
         eyes.map(|EyeTarget { viewport, scissor, layer, .. }| FramewrightEyeTarget { viewport, scissor, layer })
     })
 }
 
-fn eye(eye: Option<Eye>) -> FramewrightEye {
+pub(crate) fn eye(eye: Option<Eye>) -> FramewrightEye {
     match eye {
         None => FramewrightEye::None,
         Some(Eye::Left) => FramewrightEye::Left,
@@ -392,7 +224,7 @@ unsafe fn resources<'p>(pass: *const FramewrightPass<'p>) -> Result<&'p dyn Pass
     Ok(resources.0)
 }
 
-/// Tells an image that a pass accesses, by the pipeline's name.
+/// Tells an image that a pass accesses, by the pipeline's name. Any thread may ask until the callback of the pass returns.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn framewright_pass_image(
     pass: *const FramewrightPass<'_>,
@@ -419,7 +251,7 @@ pub unsafe extern "C" fn framewright_pass_image(
     })
 }
 
-/// Tells a buffer that a pass accesses, by the pipeline's name.
+/// Tells a buffer that a pass accesses, by the pipeline's name. Any thread may ask until the callback of the pass returns.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn framewright_pass_buffer(
     pass: *const FramewrightPass<'_>,
@@ -435,7 +267,11 @@ pub unsafe extern "C" fn framewright_pass_buffer(
 }
 
 /// Draws consecutive vertices of a pass inside a rendering scope whose shader is the pipeline's, for both eyes where the pass is for both.
-/// Shaders see `first_instance` as their first `gl_InstanceIndex`. What is misused, as a set that isn't bound, is the error of the frame.
+/// Shaders see `first_instance` as their first `gl_InstanceIndex`. It records into `commands` of the pass, which one thread does at a time.
+///
+/// It draws with the pipeline and sets that are bound, and the pass begins with its own. Once the program has bound others, or has set push
+/// constants, it isn't called for this pass any more. A shader that reads vertex buffers, bind groups or push constants of a draw interface
+/// can't be drawn. That, and a set of the program's that isn't bound, is the error of the frame.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn framewright_pass_draw(
     pass: *const FramewrightPass<'_>,
@@ -454,62 +290,4 @@ pub unsafe extern "C" fn framewright_pass_draw(
         let drawn = resources(pass)?.draw(vertices, range(first_instance, instance_count, "instances")?);
         drawn.map_err(|why| Problem::Misuse(why.to_owned()))
     })
-}
-
-/// Has `record` record custom passes, and draws of objects and sky where no scene was set, and gives it `context`; NULL: nobody does.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn framewright_renderer_set_recorder(
-    renderer: *mut FramewrightRenderer,
-    record: FramewrightRecord,
-    context: *mut c_void,
-) -> FramewrightStatus {
-    // SAFETY: the caller's word.
-    unsafe {
-        with(renderer, |state| {
-            state.callback = record.map(|record| Callback { record, context });
-            Ok(())
-        })
-    }
-}
-
-/// Says whether the draws of the custom passes that the pipeline calls `custom`, inside rendering scopes, come in secondary command buffers,
-/// which threads of the program record: 0, as at first, or 1. Custom passes outside of scopes execute such ones without a word.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn framewright_renderer_set_secondary(
-    renderer: *mut FramewrightRenderer,
-    custom: *const c_char,
-    has: u32,
-) -> FramewrightStatus {
-    // SAFETY: the caller's word.
-    unsafe {
-        with(renderer, |state| {
-            let custom = text(custom, "custom")?;
-            match has {
-                0 => state.secondary.remove(custom),
-                _ => state.secondary.insert(custom.to_owned()),
-            };
-            Ok(())
-        })
-    }
-}
-
-/// Tells what secondary command buffers of the pass of this name are begun with, before the frame: as `inheritance` of the pass. It begins
-/// with a plan, as a frame does. The formats that it leads to live until this function is called again for the renderer, or it is freed.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn framewright_renderer_inheritance(
-    renderer: *mut FramewrightRenderer,
-    pass: *const c_char,
-    inheritance: *mut vk::CommandBufferInheritanceRenderingInfo<'_>,
-) -> FramewrightStatus {
-    // SAFETY: the caller's word.
-    unsafe {
-        with(renderer, |state| {
-            let pass = text(pass, "pass")?;
-            let formats = state.executor()?.formats(pass);
-            let none = || Problem::Misuse(format!("no rendering scope has a pass `{pass}`"));
-            let kept = state.inherited.insert(Box::new(formats.ok_or_else(none)?));
-            // Its formats lie on the heap, where they stay until others take their place.
-            output(inheritance.cast(), "inheritance", kept.inheritance())
-        })
-    }
 }

@@ -3,9 +3,9 @@
 use crate::arguments::{
     FramewrightNames, Structure, free, from_0, handle, list, optional_text, output, reference, structure, text,
 };
+use crate::callback::Callback;
 use crate::device::FramewrightDevice;
 use crate::last_error::{self, call};
-use crate::passes::Callback;
 use crate::scene::FramewrightScene;
 use crate::sets::{FramewrightSet, program_sets};
 use crate::status::{FramewrightStatus, Problem};
@@ -49,14 +49,12 @@ pub(crate) struct State {
     pub(crate) callback: Option<Callback>,
     /// The custom passes inside scopes whose draws come in secondary command buffers.
     pub(crate) secondary: BTreeSet<String>,
-    /// What was told last of how those are begun.
-    pub(crate) inherited: Option<Box<ScopeFormats>>,
     /// The most that changed since the program asked.
     pub(crate) unreported: FramewrightChange,
     /// What was read last.
     pub(crate) texels: Option<Texels>,
-    /// The formats that it asked for last.
-    pub(crate) formats: Option<ScopeFormats>,
+    /// The formats that were told, each once. The program has pointers to their lists.
+    pub(crate) formats: Vec<ScopeFormats>,
 }
 
 /// What a renderer is made with, and keeps. 0 in a field is its default.
@@ -256,10 +254,9 @@ pub unsafe extern "C" fn framewright_renderer_open(
             objects: None,
             callback: None,
             secondary: BTreeSet::new(),
-            inherited: None,
             unreported: FramewrightChange::Nothing,
             texels: None,
-            formats: None,
+            formats: Vec::new(),
         })))
     };
     // SAFETY: the caller's word.

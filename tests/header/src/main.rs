@@ -4,7 +4,7 @@ use std::error::Error;
 use std::path::Path;
 
 /// The files in the order in which the header has their contents.
-const FILES: [&str; 13] = [
+const FILES: [&str; 14] = [
     "version",
     "status",
     "last_error",
@@ -16,6 +16,7 @@ const FILES: [&str; 13] = [
     "sets",
     "renderer",
     "frames",
+    "recorder",
     "images",
     "texels",
 ];

@@ -251,6 +251,136 @@ static void renderers(FramewrightRenderer *renderer, const FramewrightScene *sce
     HOLDS(image != VK_NULL_HANDLE);
 }
 
+/* `show` and what follows share a rendering scope; `dot` has one of another format. */
+static const char CUSTOM[] =
+    "Pipeline(version: 1,\n"
+    "    images: [(name: \"mine\", format: R8G8B8A8_UNORM, size: Output), (name: \"screen\", format: R8G8B8A8_SRGB, size: Output)],\n"
+    "    buffers: [(name: \"numbers\", bytes: 64)],\n"
+    "    passes: [(name: \"whole\", custom: \"fill\", writes: [\"mine\", \"numbers\"]),\n"
+    "        (name: \"dot\", custom: \"dot\", color: [\"mine\"]),\n"
+    "        (name: \"show\", draw: FullScreen(\"copy\"), sample: {\"source\": \"mine\"}, color: [\"screen\"]),\n"
+    "        (name: \"corner\", custom: \"mark\", color: [\"screen\"]),\n"
+    "        (name: \"things\", draw: Objects(Opaque), shader: \"placed\", color: [\"screen\"])],\n"
+    "    outputs: [\"screen\"])\n";
+
+/* What the callback is given. */
+typedef struct {
+    FramewrightRenderer *renderer;
+    /* The pass that draws, by what is called `custom`. */
+    const char *drawn;
+    int calls;
+} Program;
+
+/* Wrong calls about a pass. */
+static uint32_t record(void *context, const FramewrightPass *pass) {
+    Program *program = context;
+    ++program->calls;
+    const char *own = pass->in_scope && strcmp(pass->custom, "dot") != 0 ? "screen" : "mine";
+    FramewrightPassImage image;
+    VkBuffer buffer;
+    FINE(framewright_pass_image(pass, own, &image));
+    WRONG(framewright_pass_image(NULL, own, &image), MISUSE, "`pass` is NULL");
+    WRONG(framewright_pass_image((const FramewrightPass *)1, own, &image), MISUSE, "`pass` is no pointer");
+    WRONG(framewright_pass_image(pass, NULL, &image), MISUSE, "`name` is NULL");
+    WRONG(framewright_pass_image(pass, "\xff", &image), MISUSE, "`name` is no UTF-8");
+    WRONG(framewright_pass_image(pass, "scren", &image), MISUSE, "the pass accesses no image `scren`");
+    WRONG(framewright_pass_image(pass, own, NULL), MISUSE, "`image` is NULL");
+    WRONG(framewright_pass_buffer(NULL, "numbers", &buffer), MISUSE, "`pass` is NULL");
+    WRONG(framewright_pass_buffer(pass, NULL, &buffer), MISUSE, "`name` is NULL");
+    WRONG(framewright_pass_buffer(pass, own, &buffer), MISUSE, "the pass accesses no buffer `");
+    if (!pass->in_scope) {
+        FINE(framewright_pass_buffer(pass, "numbers", &buffer));
+        WRONG(framewright_pass_buffer(pass, "numbers", NULL), MISUSE, "`buffer` is NULL");
+        WRONG(framewright_pass_draw(pass, 0, 3, 0, 1), MISUSE, "the pass stands outside of rendering scopes");
+    }
+    if (pass->inheritance != NULL) {
+        WRONG(framewright_pass_draw(pass, 0, 3, 0, 1), MISUSE, "the draws of the pass come in secondary command buffers");
+    }
+    WRONG(framewright_pass_draw(NULL, 0, 3, 0, 1), MISUSE, "`pass` is NULL");
+    WRONG(framewright_pass_draw(pass, UINT32_MAX, 1, 0, 1), MISUSE, "too many vertices");
+    WRONG(framewright_pass_draw(pass, 0, 3, 1, UINT32_MAX), MISUSE, "too many instances");
+    /* One that the program made itself. */
+    const FramewrightPass made = {.name = "whole"};
+    WRONG(framewright_pass_image(&made, own, &image), MISUSE, "`pass->resources` is NULL");
+    WRONG(framewright_pass_buffer(&made, "numbers", &buffer), MISUSE, "`pass->resources` is NULL");
+    WRONG(framewright_pass_draw(&made, 0, 3, 0, 1), MISUSE, "`pass->resources` is NULL");
+    /* The renderer is in the middle of a call. */
+    FramewrightFormats formats;
+    VkCommandBufferInheritanceRenderingInfo told;
+    uint32_t stereo;
+    WRONG(framewright_renderer_formats(program->renderer, "corner", &formats), MISUSE, "the renderer is in use");
+    WRONG(framewright_renderer_inheritance(program->renderer, "corner", &told), MISUSE, "the renderer is in use");
+    WRONG(framewright_renderer_both_eyes(program->renderer, "corner", &stereo, NULL), MISUSE, "the renderer is in use");
+    WRONG(framewright_renderer_set_secondary(program->renderer, "mark", 1), MISUSE, "the renderer is in use");
+    if (strcmp(pass->custom, program->drawn) == 0) {
+        FINE(framewright_pass_draw(pass, 0, 3, 0, 1));
+    }
+    return 1;
+}
+
+/* What is told of passes before the frame, and what is set for them. */
+static void told(FramewrightRenderer *renderer) {
+    FramewrightFormats formats;
+    VkCommandBufferInheritanceRenderingInfo corner, dot;
+    FramewrightEyeForm form;
+    uint32_t stereo;
+    WRONG(framewright_renderer_formats(NULL, "corner", &formats), MISUSE, "`renderer` is NULL");
+    WRONG(framewright_renderer_formats(renderer, NULL, &formats), MISUSE, "`pass` is NULL");
+    WRONG(framewright_renderer_formats(renderer, "corner", NULL), MISUSE, "`formats` is NULL");
+    WRONG(framewright_renderer_formats(renderer, "whole", &formats), MISUSE, "no rendering scope has a pass of the name `whole`");
+    WRONG(framewright_renderer_inheritance(NULL, "corner", &corner), MISUSE, "`renderer` is NULL");
+    WRONG(framewright_renderer_inheritance(renderer, NULL, &corner), MISUSE, "`pass` is NULL");
+    WRONG(framewright_renderer_inheritance(renderer, "corner", NULL), MISUSE, "`inheritance` is NULL");
+    WRONG(framewright_renderer_inheritance(renderer, "cornr", &corner), MISUSE, "no rendering scope has a pass of the name `cornr`");
+    WRONG(framewright_renderer_both_eyes(NULL, "corner", &stereo, &form), MISUSE, "`renderer` is NULL");
+    WRONG(framewright_renderer_both_eyes(renderer, NULL, &stereo, &form), MISUSE, "`pass` is NULL");
+    WRONG(framewright_renderer_both_eyes(renderer, "corner", NULL, &form), MISUSE, "`stereo` is NULL");
+    FINE(framewright_renderer_both_eyes(renderer, "corner", &stereo, NULL));
+    HOLDS(stereo == FRAMEWRIGHT_STEREO_OFF && form == FRAMEWRIGHT_EYE_FORM_NONE);
+    WRONG(framewright_renderer_set_secondary(NULL, "mark", 1), MISUSE, "`renderer` is NULL");
+    WRONG(framewright_renderer_set_secondary(renderer, NULL, 1), MISUSE, "`custom` is NULL");
+    WRONG(framewright_renderer_set_secondary(renderer, "\xff", 1), MISUSE, "`custom` is no UTF-8");
+    WRONG(framewright_renderer_set_recorder(NULL, record, NULL), MISUSE, "`renderer` is NULL");
+
+    /* What was told of one pass outlives what is told of another one, and of the same one again. */
+    FINE(framewright_renderer_inheritance(renderer, "corner", &corner));
+    FINE(framewright_renderer_inheritance(renderer, "dot", &dot));
+    FINE(framewright_renderer_formats(renderer, "dot", &formats));
+    FINE(framewright_renderer_formats(renderer, "corner", &formats));
+    HOLDS(corner.colorAttachmentCount == 1 && corner.pColorAttachmentFormats[0] == VK_FORMAT_R8G8B8A8_SRGB);
+    HOLDS(dot.colorAttachmentCount == 1 && dot.pColorAttachmentFormats[0] == VK_FORMAT_R8G8B8A8_UNORM);
+    HOLDS(formats.color == corner.pColorAttachmentFormats && formats.color_count == 1);
+}
+
+static void custom_passes(const FramewrightDevice *device) {
+    write_file("custom.ron", CUSTOM);
+    write_file("placed.vert",
+               "#version 460\nlayout(location = 0) in vec3 position;\nvoid main() { gl_Position = vec4(position, 1.0); }\n");
+    write_file("placed.frag", "#version 460\nlayout(location = 0) out vec4 color;\nvoid main() { color = vec4(1.0); }\n");
+    FramewrightRenderer *renderer;
+    FINE(framewright_renderer_open(device, "custom.ron", NULL, &renderer));
+    FINE(framewright_renderer_set_extent(renderer, 64, 36));
+    told(renderer);
+    WRONG(framewright_renderer_frame(renderer, NULL), MISTAKES, "no recorder was set");
+    Program program = {.renderer = renderer, .drawn = ""};
+    FINE(framewright_renderer_set_recorder(renderer, record, &program));
+    FINE(framewright_renderer_frame(renderer, NULL));
+    HOLDS(program.calls == 4);
+    FINE(framewright_renderer_set_secondary(renderer, "mark", 1));
+    FINE(framewright_renderer_frame(renderer, NULL));
+    FINE(framewright_renderer_set_secondary(renderer, "mark", 0));
+    /* Draws that can't be are errors of the frame, and the next one is fine. */
+    program.drawn = "placed";
+    WRONG(framewright_renderer_frame(renderer, NULL), MISUSE, "a draw without vertex buffer");
+    program.drawn = "mark";
+    WRONG(framewright_renderer_frame(renderer, NULL), MISUSE, "there is no shader `mark`");
+    program.drawn = "";
+    FINE(framewright_renderer_frame(renderer, NULL));
+    FINE(framewright_renderer_set_recorder(renderer, NULL, &program));
+    WRONG(framewright_renderer_frame(renderer, NULL), MISTAKES, "no recorder was set");
+    framewright_renderer_free(renderer);
+}
+
 int main(void) {
     HOLDS(framewright_abi() == FRAMEWRIGHT_ABI && framewright_version()[0] != 0 && framewright_last_error()[0] == 0);
     FramewrightDevice *device;
@@ -258,6 +388,7 @@ int main(void) {
     FramewrightScene *scene;
     scenes(&scene);
     pipelines(device);
+    custom_passes(device);
     FramewrightRenderer *renderer;
     FINE(framewright_renderer_open(device, "forward", NULL, &renderer));
     /* What was made from a handle outlives it. */

@@ -9,13 +9,14 @@
 
 enum { THREADS = 4 };
 
-/* `show` and `columns` share a rendering scope. */
+/* `show`, `columns` and `last` share a rendering scope. */
 static const char PIPELINE[] =
     "Pipeline(version: 1,\n"
     "    images: [(name: \"mine\", format: R8G8B8A8_UNORM, size: Output), (name: \"screen\", format: R8G8B8A8_UNORM, size: Output)],\n"
     "    passes: [(name: \"fill\", custom: \"fill\", writes: [\"mine\"]),\n"
     "        (name: \"show\", draw: FullScreen(\"copy\"), sample: {\"source\": \"mine\"}, color: [\"screen\"]),\n"
-    "        (name: \"columns\", custom: \"columns\", color: [\"screen\"])],\n"
+    "        (name: \"columns\", custom: \"columns\", color: [\"screen\"]),\n"
+    "        (name: \"last\", custom: \"last\", color: [\"screen\"])],\n"
     "    outputs: [\"screen\"])\n";
 
 static void check(FramewrightStatus status) {
@@ -64,8 +65,46 @@ static int record_columns(void *context) {
     return 0;
 }
 
+/* What a pass accesses is told to any thread. */
+static int ask(void *context) {
+    const FramewrightPass *pass = context;
+    const char *name = pass->in_scope ? "screen" : "mine";
+    for (int times = 0; times < 100; ++times) {
+        FramewrightPassImage image;
+        check(framewright_pass_image(pass, name, &image));
+        VkBuffer buffer;
+        if (image.image == VK_NULL_HANDLE || framewright_pass_buffer(pass, name, &buffer) != FRAMEWRIGHT_STATUS_MISUSE) {
+            return 1;
+        }
+    }
+    return 0;
+}
+
+/* Whether all threads are told. */
+static int ask_at_once(const FramewrightPass *pass) {
+    thrd_t started[THREADS];
+    int wrong = 0;
+    for (int number = 0; number < THREADS; ++number) {
+        if (thrd_create(&started[number], ask, (void *)pass) != thrd_success) {
+            exit(EXIT_FAILURE);
+        }
+    }
+    for (int number = 0; number < THREADS; ++number) {
+        int found;
+        thrd_join(started[number], &found);
+        wrong += found;
+    }
+    return wrong == 0;
+}
+
 static uint32_t record(void *context, const FramewrightPass *pass) {
     Program *program = context;
+    if (!ask_at_once(pass)) {
+        return 0;
+    }
+    if (strcmp(pass->custom, "last") == 0) {
+        return pass->in_scope && pass->inheritance == NULL;
+    }
     if (!pass->in_scope) {
         FramewrightPassImage image;
         VkClearColorValue blue = {.float32 = {0, 0, 1, 1}};
