@@ -30,7 +30,8 @@ impl Plan {
     /// # Errors
     /// In words: it isn't external, or several queues use it. The Plan stays as it is.
     pub fn set_owner(&mut self, resource: Resource, owner: Option<OutsideOwner>) -> Result<(), String> {
-        let uses = |number: &usize| self.steps[*number].touched().any(|it| it == resource);
+        // The transfers that there are go: they are no use.
+        let uses = |number: &usize| self.steps[*number].touched_inside().any(|it| it == resource);
         let users: Vec<usize> = (0..self.steps.len()).filter(uses).collect();
         let mut queues = users.iter().map(|number| self.steps[*number].queue);
         let first = queues.next();

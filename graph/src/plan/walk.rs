@@ -192,10 +192,14 @@ impl Work {
 impl Step {
     /// All that it touches: what its barriers are about, what its work uses, and what outside owners give or get.
     pub fn touched(&self) -> impl Iterator<Item = Resource> {
+        self.touched_inside().chain(self.outside.iter().map(|it| it.resource))
+    }
+
+    /// The same without what outside owners give or get.
+    pub(crate) fn touched_inside(&self) -> impl Iterator<Item = Resource> {
         let images = self.image_barriers.iter().chain(&self.releases).map(|barrier| Resource::Image(barrier.image));
         let hazards = self.memory_barriers.iter().flat_map(|barrier| &barrier.buffers);
         let buffers = hazards.map(|hazard| Resource::Buffer(hazard.buffer));
-        let handed = self.outside.iter().map(|it| it.resource);
-        images.chain(buffers).chain(self.work.used().map(|(resource, _)| resource)).chain(handed)
+        images.chain(buffers).chain(self.work.used().map(|(resource, _)| resource))
     }
 }

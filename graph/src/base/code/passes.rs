@@ -100,7 +100,8 @@ room! {
     /// The cascades of a view don't go together.
     ///
     /// The passes that draw a view's shadows are of one number of cascades and one reach, and their maps have one size. None is missing:
-    /// `repeat` a pass as often as there are. Each draws its own number: into the layer of that number, if a shader samples the image.
+    /// `repeat` a pass as often as there are. Each draws its own number. Where shaders sample them, they are the layers
+    /// of one image, each of its own number.
     CASCADES = 718,
 
     /// A pass uses one thing in two ways at once.

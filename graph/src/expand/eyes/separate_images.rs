@@ -33,7 +33,7 @@ impl SeparateImages {
         for (pass, whose) in running() {
             let name = &pass.name.text;
             let own_part = |part: &&ImagePart| own[index(part.image.index)];
-            for part in used_by_texels(pass).filter(own_part) {
+            for part in used_by_texels(pass, may_be_at_once(pass, *whose)).filter(own_part) {
                 apart.part(part.image.index, || format!("`{name}` uses it otherwise than by sampling or drawing"));
             }
             for part in written(pass).filter(own_part).filter(|part| part.eye.is_some() || *whose != PassEyes::Each) {
@@ -115,7 +115,7 @@ impl SeparateImages {
                 let image = &pipeline.images[index(cause.image.index)].name.text;
                 let why =
                     format!("`{}` draws it for one eye after the other, as it does with `{image}`", pass.name.text);
-                found |= self.all(written(pass).filter(is_own), &why);
+                found |= self.all(written(pass).chain(used_by_texels(pass, false)).filter(is_own), &why);
             }
         }
         // The stand-in of a pass that is off forwards one image for both eyes, or an image for each.
@@ -179,7 +179,7 @@ fn only_one_by_one(pass: &Pass, eyes: &Eyes<'_>) -> Option<&'static str> {
 /// Images that a pass reads, by shaders or by a copy.
 fn read(pass: &Pass) -> impl Iterator<Item = &ImagePart> {
     let copied = pass.work.copied().and_then(|[from, _]| image(from));
-    pass.sample.iter().map(|sample| &sample.part).chain(copied).chain(used_by_texels(pass))
+    pass.sample.iter().map(|sample| &sample.part).chain(copied).chain(used_by_texels(pass, false))
 }
 
 /// Images that a pass writes.
@@ -187,17 +187,22 @@ fn written(pass: &Pass) -> impl Iterator<Item = &ImagePart> {
     pass.image_parts().filter(|(_, of)| of.writes()).map(|(part, _)| part)
 }
 
-/// Images that a pass uses otherwise than by sampling and drawing: copies and fills of whole images work for both eyes too.
-fn used_by_texels(pass: &Pass) -> impl Iterator<Item = &ImagePart> {
+/// Whether a pass works for both eyes at once, if what it uses holds both eyes' parts.
+fn may_be_at_once(pass: &Pass, whose: PassEyes) -> bool {
+    !matches!(pass.work, Work::Custom { .. }) || pass.both_eyes && whose == PassEyes::Each
+}
+
+/// Images that a pass uses otherwise than by sampling and drawing. A pass that may be `at_once` uses whole images by copies and fills for
+/// both eyes too.
+fn used_by_texels(pass: &Pass, at_once: bool) -> impl Iterator<Item = &ImagePart> {
     let partial = !pass.work.transfer_reads().iter().chain(pass.work.transfer_writes()).all(whole);
     let (reads, writes) = match &pass.work {
-        Work::Copy { .. } | Work::Fill { .. } => (partial, partial),
-        Work::Custom { .. } if pass.both_eyes => (partial, partial),
-        Work::Blit { .. } | Work::Custom { .. } => (true, false),
+        Work::Copy { .. } | Work::Fill { .. } | Work::Custom { .. } if at_once => (partial, partial),
+        Work::Copy { .. } | Work::Fill { .. } | Work::Blit { .. } | Work::Custom { .. } => (true, false),
         Work::Draw { .. } | Work::Dispatch { .. } => (false, false),
     };
     // Commands of the program's own, outside of rendering scopes, reach both eyes' parts.
-    let stores_both = pass.both_eyes && !pass.is_drawn();
+    let stores_both = at_once && pass.both_eyes && !pass.is_drawn();
     let used = move |part: &ImagePart, of: Use| match of {
         Use::StorageRead | Use::Storage => !stores_both || is_part(part),
         Use::TransferRead => reads,

@@ -36,10 +36,11 @@ pub(in crate::expand) fn agree(resources: &Resources<'_>, states: &[State], erro
     }
     for all in views.values() {
         let first = &all[0];
+        let first_sampled = all.iter().find(|casters| sampled.contains(&casters.target.image));
         let mut said = HashSet::new();
         for casters in all {
-            let looked_up = sampled.contains(&casters.target.image);
-            let wrong = differs(first, casters).or_else(|| misplaced(casters).filter(|_| looked_up));
+            let looked_up = first_sampled.filter(|_| sampled.contains(&casters.target.image));
+            let wrong = differs(first, casters).or_else(|| misplaced(looked_up?, casters));
             let Some(wrong) = wrong else { continue };
             if casters.pass.instance.is_none_or(|instance| said.insert(instance)) {
                 errors.push(wrong);
@@ -78,8 +79,13 @@ fn differs(first: &Casters<'_>, other: &Casters<'_>) -> Option<Diagnostic> {
     })
 }
 
-/// What keeps shaders from finding a cascade in the image that they sample.
-fn misplaced(casters: &Casters<'_>) -> Option<Diagnostic> {
+/// What keeps shaders from finding a cascade in the image that they sample, which is that of the `first` one.
+fn misplaced(first: &Casters<'_>, casters: &Casters<'_>) -> Option<Diagnostic> {
+    if first.target.image != casters.target.image {
+        let message = "all cascades of a view that shaders sample are layers of one image";
+        let wrong = Diagnostic::new(Code::CASCADES, casters.target.span, message);
+        return Some(wrong.label(first.target.span, format!("pass `{}` draws into this one", first.pass.name.text)));
+    }
     let (index, layer) = (casters.cascade.index, casters.target.range.base_layer);
     (u32::from(index) != layer).then(|| {
         let wrong =

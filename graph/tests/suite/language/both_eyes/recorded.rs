@@ -56,9 +56,34 @@ fn do_12_what_cannot_hold_both_eyes_parts_is_recorded_for_one_eye_after_the_othe
         assert_eq!(passes(&frame)[3..], ["move (left)", "move (right)"]);
         assert!(frame.passes.iter().all(|pass| !pass.both_eyes));
     }
+    // What such a pass reads, and what one eye alone writes beside it, is there for each eye too.
+    let beside = |name: &str| format!("`{name}` draws it for one eye after the other, as it does with `own`");
+    let show = "`show` draws it for one eye after the other, as it does with `color`";
+    let own = ("own", "it has mip levels");
+    for (name, more) in [
+        (
+            "move",
+            r#"(name: "move", custom: "it", both_eyes: true, reads: ["color"], writes: ["own"], side_effect: true),"#,
+        ),
+        (
+            "store",
+            r#"(name: "store", custom: "it", both_eyes: true, side_effect: true,
+            storage: {"a": (image: "color", access: Read), "b": (image: "own", mip: 0, access: Write)}),"#,
+        ),
+        ("copy", r#"(name: "copy", copy: (from: "color", to: (image: "own", mip: 0)), side_effect: true),"#),
+    ] {
+        for frame in fall_apart(ALL, levels, more, &[("color", &beside(name)), ("screen", show), own]) {
+            assert_eq!(verify(&compiled(&frame)), [], "{name}");
+        }
+    }
+    let left = r#"(name: "left", custom: "it", both_eyes: true, storage: {"a": (image: Eye(Left, "own"), access: Write)}, reads: ["color"],
+        side_effect: true),"#;
+    let by_texels = "`left` uses it otherwise than by sampling or drawing";
+    for frame in fall_apart(ALL, OWN, left, &[("color", by_texels), ("screen", show), ("own", by_texels)]) {
+        assert_eq!(verify(&compiled(&frame)), []);
+    }
     // One eye's, moved or stored, is no part of both.
     let why = "`move` uses it otherwise than by sampling or drawing";
-    let show = "`show` draws it for one eye after the other, as it does with `color`";
     for more in [
         r#"(name: "move", custom: "it", both_eyes: true, reads: [Eye(Left, "color")], side_effect: true),"#,
         r#"(name: "move", custom: "it", both_eyes: true, storage: {"x": (image: Eye(Left, "color"), access: Read)}, side_effect: true),"#,
