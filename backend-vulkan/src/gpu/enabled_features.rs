@@ -5,8 +5,8 @@ use ash::vk;
 use std::marker::PhantomData;
 
 impl Features {
-    /// The features in the chain that a device of `physical` was created with. A feature of Vulkan 1.0 to 1.3 may stand in the structure of its version,
-    /// or in that of the extension that it comes from.
+    /// The features in the chain that a device of `physical` was created with. A feature of Vulkan 1.0 to 1.3 may stand in the structure of
+    /// its version, or in that of the extension that it comes from.
     ///
     /// # Safety
     /// `physical` belongs to `instance`, and each structure in the chain is valid, and of the type that it says.

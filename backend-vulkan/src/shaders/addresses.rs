@@ -61,3 +61,35 @@ fn stored(it: &Instruction) -> Option<u32> {
     };
     if stores { id(it, 0) } else { None }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rspirv::dr::Builder;
+    use rspirv::spirv::FunctionControl;
+
+    /// DO-4: the address of an acceleration structure is none that a shader makes up, whatever it declares.
+    #[test]
+    fn a_structure_is_found_by_an_address_only_where_the_program_hands_them_out() {
+        let refused = |converts: bool, handed_out: bool| {
+            let mut builder = Builder::new();
+            let (void, uint) = (builder.type_void(), builder.type_int(32, 0));
+            let structure = builder.type_acceleration_structure_khr();
+            let (pair, ty) = (builder.type_vector(uint, 2), builder.type_function(void, []));
+            let address = builder.constant_null(pair);
+            builder.begin_function(void, None, FunctionControl::NONE, ty).expect("a function");
+            builder.begin_block(None).expect("a block");
+            if converts {
+                builder.convert_u_to_acceleration_structure_khr(structure, None, address).expect("in a block");
+            }
+            builder.ret().expect("in a block");
+            builder.end_function().expect("in a function");
+            let module = builder.module();
+            check(&IndexedModule::new(&module), handed_out).err().map(|refused| refused.what)
+        };
+        let what = refused(true, false).expect("refused");
+        assert!(what.starts_with("it finds an acceleration structure by its address"), "{what}");
+        assert!(what.ends_with(UNSAID), "{what}");
+        assert_eq!([refused(true, true), refused(false, false)], [None, None]);
+    }
+}

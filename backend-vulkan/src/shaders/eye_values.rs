@@ -258,3 +258,38 @@ impl EyeValues {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rspirv::spirv::FunctionControl;
+
+    /// ST-5: what a function is handed as a variable can't be replaced by the eye.
+    #[test]
+    fn the_index_of_a_view_is_handed_to_no_function_as_a_variable() {
+        let put = |hands: bool| {
+            let mut builder = Builder::new();
+            let (void, int) = (builder.type_void(), builder.type_int(32, 1));
+            let pointer = builder.type_pointer(None, StorageClass::Input, int);
+            let private = builder.type_pointer(None, StorageClass::Private, int);
+            let view = builder.variable(pointer, None, StorageClass::Input, None);
+            let eye = builder.variable(private, None, StorageClass::Private, None);
+            let takes = builder.type_function(void, [pointer]);
+            let callee = builder.begin_function(void, None, FunctionControl::NONE, takes).expect("a function");
+            builder.function_parameter(pointer).expect("in a function");
+            builder.begin_block(None).expect("a block");
+            match hands {
+                true => _ = builder.function_call(void, None, callee, [view]).expect("in a block"),
+                false => _ = builder.load(int, None, view, None, []).expect("in a block"),
+            }
+            builder.ret().expect("in a block");
+            builder.end_function().expect("in a function");
+            let mut values = EyeValues::of(eye);
+            values.views.push(view);
+            values.put(&mut builder).err().map(|refused| refused.what)
+        };
+        let what = put(true).expect("refused");
+        assert!(what.starts_with("it hands the index of a view, or the number of an instance"), "{what}");
+        assert_eq!(put(false), None);
+    }
+}

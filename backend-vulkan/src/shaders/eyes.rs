@@ -21,6 +21,9 @@ pub(super) const HANDED_ON: &str = "framewright_eye_of_triangle";
 /// `maxVertexOutputComponents` and `maxFragmentInputComponents`: 16 locations. `gl_Position` may take one.)
 pub(super) const LOCATION: u32 = 14;
 
+/// The first instance of a draw, as GLSL calls it, by itself and by its extension.
+pub(super) const BASE_INSTANCE: [&str; 2] = ["gl_BaseInstance", "gl_BaseInstanceARB"];
+
 /// Words of `include/stereo.hlsl` and `include/rotation.hlsl` that ask for the eye.
 pub(super) const ASKING: [&str; 6] =
     ["eye_index", "scale_offset", "screen_uv", "screen_pos", "frag_coord", "FRAMEWRIGHT_BOTH_EYES"];
@@ -48,6 +51,19 @@ impl BothEyes {
             macros.push(("gl_InstanceIndex", "framewright_instance"));
         }
         macros.into_iter().map(|(name, value)| (name.to_owned(), value.to_owned())).collect()
+    }
+
+    /// More macros of a stage that asks for the first instance of a draw: that of the eye, as it counts its own. A variable would ask for
+    /// the first instance in all stages, and a macro isn't put into its own value again.
+    pub(super) fn base_instance(self, stage: ShaderStage) -> impl Iterator<Item = (String, String)> {
+        let own: fn(&str) -> String = match self.source {
+            EyeSource::InstanceParity => |first| format!("int(uint({first}) >> 1)"),
+            EyeSource::InstanceBit | EyeSource::ViewIndex | EyeSource::One(_) => {
+                |first| format!("({first} & 0x7fffffff)")
+            }
+        };
+        let counts = stage.facts().places_vertices && self.counts_instances();
+        BASE_INSTANCE.into_iter().filter(move |_| counts).map(move |name| (name.to_owned(), own(name)))
     }
 
     /// Whether the vertex stage hands the eye to the fragment stage, at a location of its own.

@@ -8,6 +8,7 @@ use super::eye_values::EyeValues;
 use super::eyes::{BothEyes, EYE, HANDED_ON, LOCATION, NOT_AT_SEAM};
 use super::module::{IndexedModule, id, storage_class};
 use super::newer_version;
+use super::rotation::{EYE_CONSTANT, ROTATION};
 use super::text::RefusedStage;
 use super::view_semantics;
 use crate::base::{ShaderStage, StageFacts};
@@ -17,12 +18,9 @@ use rspirv::binary::Assemble;
 use rspirv::dr::{Builder, Instruction, Operand};
 use rspirv::spirv::{BuiltIn, Capability, Decoration, FunctionControl, Op, StorageClass, Word};
 
-/// The number of the constant that stands for the eye in a text of HLSL or Slang.
-const CONSTANT: u32 = 103;
-
 /// What a text in HLSL or Slang begins with, if it asks for the eye and both are drawn for at once.
 pub(super) fn declared() -> String {
-    format!("#define FRAMEWRIGHT_EYE\n[[vk::constant_id({CONSTANT})]] const int {EYE} = 0;\n#line 1\n")
+    format!("#define FRAMEWRIGHT_EYE\n[[vk::constant_id({EYE_CONSTANT})]] const int {EYE} = 0;\n#line 1\n")
 }
 
 /// Makes a stage that was written for one eye, in another language than GLSL, one for both at once.
@@ -53,8 +51,8 @@ pub(super) fn for_both(spirv: &[u32], stage: ShaderStage, both: BothEyes) -> Res
     Ok(made.builder.module().assemble())
 }
 
-/// Puts the eye in place of the index of a view where the device draws no views. `asks`: the text of the stage does so; `right`: the right one is drawn for by itself. In GLSL
-/// that draws for both at once a variable knows the eye.
+/// Puts the eye in place of the index of a view where the device draws no views. `asks`: the text of the stage asks for it; `right`: the
+/// right eye is drawn for by itself. In GLSL that draws for both at once a variable knows the eye.
 ///
 /// # Errors
 /// What the stage does with the index of a view that can't be followed.
@@ -165,8 +163,8 @@ impl ModuleParts {
         let constants = module.module.types_global_values.iter().filter(|it| it.class.opcode == Op::SpecConstant);
         for constant in constants.filter_map(|it| it.result_id) {
             match module.decoration_number(constant, Decoration::SpecId) {
-                Some(CONSTANT) if module.name(constant).starts_with(EYE) => found.constants.push(constant),
-                Some(super::rotation::ROTATION) => found.rotation = Some(constant),
+                Some(EYE_CONSTANT) if module.name(constant) == EYE => found.constants.push(constant),
+                Some(ROTATION) => found.rotation = Some(constant),
                 _ => {}
             }
         }

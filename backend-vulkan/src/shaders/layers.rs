@@ -339,3 +339,24 @@ impl Layers {
         it.operands[0] = Operand::IdRef(name);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::by_eye;
+    use rspirv::binary::Assemble;
+    use rspirv::dr::Builder;
+    use rspirv::spirv::StorageClass;
+
+    /// ST-4: only an image can have a layer for each eye.
+    #[test]
+    fn what_is_no_image_has_no_layers() {
+        let mut builder = Builder::new();
+        let sampler = builder.type_sampler();
+        let pointer = builder.type_pointer(None, StorageClass::UniformConstant, sampler);
+        let variable = builder.variable(pointer, None, StorageClass::UniformConstant, None);
+        builder.name(variable, "smooth");
+        let spirv = builder.module().assemble();
+        assert_eq!(by_eye(&spirv, &["smooth"]), Err("`smooth` is no image that is sampled".to_owned()));
+        assert_eq!(by_eye(&spirv, &["source"]), Ok(spirv.clone()));
+    }
+}

@@ -313,8 +313,7 @@ impl ShaderLibrary {
     /// The SPIR-V of a stage, of the file's or compiled.
     fn spirv_of(&mut self, source: &StageSource, key: &StageKey) -> Result<CompilerAnswer, ShaderProblem> {
         let StageSource { found, .. } = source;
-        let (name, stage, macros, both, _, constants) = key;
-        let stage = *stage;
+        let &(ref name, stage, ref macros, both, _, ref constants) = key;
         let (compilers, files, program) = (&mut self.compilers, &self.sources.files, &self.program);
         let unsupported = |refused: RefusedStage| ShaderProblem::Unsupported { what: refused.placed(files, found) };
         if let StageName::File { file, entry } = name {
@@ -356,15 +355,14 @@ impl ShaderLibrary {
     fn compile_stage(&mut self, source: &StageSource, key: &StageKey) -> StageResult {
         let CompilerAnswer { spirv, verdict } = self.spirv_of(source, key)?;
         let StageSource { found, mentioned, code } = source;
-        let (_, stage, macros, both, in_layers, _) = key;
-        let stage = *stage;
+        let &(_, stage, ref macros, both, ref in_layers, _) = key;
         let files = &self.sources.files;
         let unsupported = |refused: RefusedStage| ShaderProblem::Unsupported { what: refused.placed(files, found) };
         // A stranger's module is judged before anything is read off it.
         if let (true, Verdict::Invalid(finding)) = (code.is_foreign(), &verdict) {
             return Err(ShaderProblem::Unsupported { what: invalid(finding, files, found) });
         }
-        let told = match *both {
+        let told = match both {
             Some(both) if code.is_foreign() => eyes_of_modules::for_both(&spirv, stage, both),
             both => eyes_of_modules::without_views(spirv, both, [mentioned.view, is_for_right_eye(macros)]),
         };

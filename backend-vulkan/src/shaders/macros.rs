@@ -84,14 +84,17 @@ pub(super) fn macros(mentioned: &MentionedNames, variant: &Variant, stage: Shade
     };
     let right = variant.eye == Some(EyeSource::One(Eye::Right)) && mentioned.view;
     let of_view = right.then(|| (RIGHT_EYE.to_owned(), String::new()));
-    let both = both_eyes(variant).into_iter().flat_map(|both| both.macros(stage));
+    let both = both_eyes(variant).into_iter().flat_map(|both| {
+        let base = mentioned.base_instance.then(|| both.base_instance(stage));
+        both.macros(stage).into_iter().chain(base.into_iter().flatten())
+    });
     let own = textures.chain(sampled).chain(components).chain(fixed).chain(parts).chain(count);
     own.chain(one).chain(of_view).chain(both).collect()
 }
 
 /// Whether a macro means something in GLSL alone.
 pub(super) fn is_of_glsl(name: &str) -> bool {
-    name.starts_with(TEXTURE) || name == "main" || name == "gl_InstanceIndex"
+    name.starts_with(TEXTURE) || name == "main" || name.starts_with("gl_")
 }
 
 /// A macro's value in HLSL and Slang.

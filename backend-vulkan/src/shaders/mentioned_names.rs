@@ -1,8 +1,10 @@
 //! The names in a GLSL text that decide how it is compiled for a pass.
 
+use super::eyes::BASE_INSTANCE;
 use super::files::{ShaderFiles, SourceFile};
 use super::text;
 use framewright_graph::base::FilePath;
+use framewright_graph::shader::FileLanguage;
 use std::collections::BTreeSet;
 
 /// Beginning of macros that stand for the type of a sampled image.
@@ -31,6 +33,8 @@ pub(super) struct MentionedNames {
     pub(super) eye: bool,
     /// Whether the stage asks for the index of a view.
     pub(super) view: bool,
+    /// Whether the stage asks for the first instance of a draw, as GLSL calls it.
+    pub(super) base_instance: bool,
     /// Macros that would be defined, but for the stage's own declarations of the same names.
     pub(super) own: Vec<String>,
 }
@@ -50,7 +54,8 @@ impl MentionedNames {
         let all: Vec<&str> = std::iter::once(stage).chain(&included).map(|file| &*file.text).collect();
         let mut mentioned = MentionedNames::by(&all.join("\n"));
         mentioned.eye &= eye;
-        mentioned.view = std::iter::once(stage).chain(&included).any(|file| asks_for_view(&file.text));
+        let language = FileLanguage::of_file(stage.path.path());
+        mentioned.view = std::iter::once(stage).chain(&included).any(|file| asks_for_view(language, &file.text));
         mentioned
     }
 
@@ -76,16 +81,24 @@ impl MentionedNames {
         let parts = words().filter_map(|word| word.strip_suffix(PART));
         let parts = parts.filter(|name| seen.contains(name)).map(str::to_owned).collect();
         let eye = words().any(|word| *word == "eye_index");
+        let base_instance = words().any(|word| BASE_INSTANCE.contains(word));
         let (adapting, optional, counted) = (behind(TEXTURE), behind(HAS), behind(COMPONENTS));
         let own = own.into_iter().map(str::to_owned).collect();
-        MentionedNames { adapting, optional, counted, parts, eye, view: false, own }
+        MentionedNames { adapting, optional, counted, parts, eye, view: false, base_instance, own }
     }
 }
 
-/// Whether a text mentions the index of a view: as GLSL, HLSL and Slang, or WGSL call it. Letters of HLSL's semantics may be of any case.
-fn asks_for_view(text: &str) -> bool {
-    let names = |word: &str| ["gl_ViewIndex", "view_index"].contains(&word) || word.eq_ignore_ascii_case("SV_ViewID");
-    text::words(&text::without_comments(text)).any(names)
+/// Whether a text mentions the index of a view, as its language calls it; `None` is GLSL. Letters of HLSL's semantics may be of any case.
+fn asks_for_view(language: Option<FileLanguage>, text: &str) -> bool {
+    let text = text::without_comments(text);
+    let mut words = text::words(&text);
+    match language {
+        None => words.any(|word| word == "gl_ViewIndex"),
+        Some(FileLanguage::Hlsl | FileLanguage::Slang) => words.any(|word| word.eq_ignore_ascii_case("SV_ViewID")),
+        Some(FileLanguage::Wgsl) => words.collect::<Vec<_>>().windows(2).any(|pair| pair == ["builtin", "view_index"]),
+        // Its capabilities tell.
+        Some(FileLanguage::Spirv) => false,
+    }
 }
 
 /// Words before a name that are no type: behind a qualifier the name is a type itself.
@@ -148,7 +161,23 @@ fn declares(text: &str, name: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::MentionedNames;
+    use super::{MentionedNames, asks_for_view};
+    use framewright_graph::shader::FileLanguage;
+
+    /// DO-2: a word that means the view in another language means nothing here.
+    #[test]
+    fn each_language_has_its_own_word_for_the_index_of_a_view() {
+        let languages = [None, Some(FileLanguage::Hlsl), Some(FileLanguage::Slang), Some(FileLanguage::Wgsl)];
+        for (text, expected) in [
+            ("int eye = int(gl_ViewIndex);", [true, false, false, false]),
+            ("f(uint v : sv_viewid)", [false, true, true, false]),
+            ("fn f(@builtin( view_index ) v: i32)", [false, false, false, true]),
+            ("let view_index = 0;", [false; 4]),
+            ("// gl_ViewIndex SV_ViewID @builtin(view_index)", [false; 4]),
+        ] {
+            assert_eq!(languages.map(|language| asks_for_view(language, text)), expected, "{text}");
+        }
+    }
 
     #[test]
     fn a_macro_that_only_a_comment_mentions_adapts_nothing() {

@@ -18,26 +18,39 @@ const LONGEST_NAME: usize = 200;
 const LONGEST_WORD: usize = 64;
 const MOST_BYTES: usize = 4 << 20;
 
+/// Files whose lines are kept.
+const MOST_FILES: usize = 4096;
+
 /// Lines by file: what stands there, as words.
 #[derive(Debug, Default)]
-pub(super) struct ModuleLines(Vec<(String, BTreeMap<u32, String>)>);
+pub(super) struct ModuleLines {
+    files: Vec<(String, BTreeMap<u32, String>)>,
+    numbers: HashMap<String, usize>,
+}
 
 impl ModuleLines {
     /// The lines of a module, and of the texts that it holds, by the names of their files.
     pub(super) fn of(module: &Module, texts: Vec<(String, String)>) -> ModuleLines {
         let mut lines = ModuleLines::default();
         for (file, text) in texts {
-            let all = lines.file(&file);
-            let mut number = 0_u32;
+            let own = lines.file(&file);
+            let (mut at, mut number) = (own, 0_u32);
             for line in without_comments(&text).lines() {
                 number = number.saturating_add(1);
-                // The next line has this number.
-                let said = line.trim_start().strip_prefix("#line ").and_then(|rest| words(rest).next()?.parse().ok());
-                if let Some(next) = said {
-                    number = u32::saturating_sub(next, 1);
+                // The next line has this number, and stands in this file.
+                if let Some((next, said)) = line_directive(line) {
+                    number = next.saturating_sub(1);
+                    at = match said {
+                        SaidFile::Same => at,
+                        SaidFile::Named(name) => lines.file(name),
+                        SaidFile::Number(0) => own,
+                        SaidFile::Number(_) => None,
+                    };
                     continue;
                 }
-                all.insert(number, line.to_owned());
+                if let Some(at) = at.filter(|_| !line.trim().is_empty()) {
+                    lines.files[at].1.insert(number, line.to_owned());
+                }
             }
         }
         lines.instructions(module);
@@ -48,16 +61,22 @@ impl ModuleLines {
     pub(super) fn place(&self, wanted: impl Fn(&str) -> bool) -> Option<String> {
         let line =
             |lines: &BTreeMap<u32, String>| lines.iter().find(|(_, text)| words(text).any(&wanted)).map(|it| *it.0);
-        self.0.iter().find_map(|(file, lines)| Some(format!("{file}:{}", line(lines)?)))
+        self.files.iter().find_map(|(file, lines)| Some(format!("{file}:{}", line(lines)?)))
     }
 
-    fn file(&mut self, name: &str) -> &mut BTreeMap<u32, String> {
-        let name: String = name.chars().take(LONGEST_NAME).collect();
-        let at = self.0.iter().position(|(known, _)| *known == name).unwrap_or_else(|| {
-            self.0.push((name, BTreeMap::new()));
-            self.0.len() - 1
-        });
-        &mut self.0[at].1
+    /// The number of a file; `None`: there are too many.
+    fn file(&mut self, name: &str) -> Option<usize> {
+        let name = shown(name);
+        if let Some(known) = self.numbers.get(name) {
+            return Some(*known);
+        }
+        let number = self.files.len();
+        if number == MOST_FILES {
+            return None;
+        }
+        self.files.push((name.to_owned(), BTreeMap::new()));
+        self.numbers.insert(name.to_owned(), number);
+        Some(number)
     }
 
     /// Adds what instructions name and do on their lines. A line whose text is there is known already.
@@ -71,23 +90,21 @@ impl ModuleLines {
         if strings.is_empty() {
             return;
         }
-        let has_text: Vec<String> = self.0.iter().map(|(file, _)| file.clone()).collect();
+        let with_text = self.files.len();
         let indexed = IndexedModule::new(module);
         let mut bytes = 0;
         for function in &module.functions {
-            let mut at: Option<(&str, u32)> = None;
+            let mut at: Option<(usize, u32)> = None;
             for it in function.blocks.iter().flat_map(|block| &block.instructions) {
                 match (it.class.opcode, &it.operands[..]) {
                     (Op::Line, [Operand::IdRef(file), Operand::LiteralBit32(line), ..]) => {
-                        at = strings
-                            .get(file)
-                            .map(|file| (*file, *line))
-                            .filter(|(file, _)| !has_text.contains(&(*file).to_owned()));
+                        let file = strings.get(file).and_then(|file| self.file(file));
+                        at = file.filter(|file| *file >= with_text).map(|file| (file, *line));
                     }
                     (Op::NoLine, _) => at = None,
                     _ => {
                         let Some((file, line)) = at.filter(|_| bytes < MOST_BYTES) else { continue };
-                        let text = self.file(file).entry(line).or_default();
+                        let text = self.files[file].1.entry(line).or_default();
                         let before = text.len();
                         add_words(&indexed, it, text);
                         bytes += text.len() - before + size_of::<String>();
@@ -96,6 +113,30 @@ impl ModuleLines {
             }
         }
     }
+}
+
+/// The beginning of a file's name, as it is shown.
+fn shown(name: &str) -> &str {
+    name.char_indices().nth(LONGEST_NAME).map_or(name, |(end, _)| &name[..end])
+}
+
+/// Which file a `#line` says that the lines behind it stand in.
+enum SaidFile<'t> {
+    Same,
+    Named(&'t str),
+    /// GLSL counts texts: the first, 0, is the file's own. The names of others aren't told.
+    Number(u32),
+}
+
+/// What `#line NUMBER "FILE"` says, or `# NUMBER "FILE"` of a preprocessor in C.
+fn line_directive(line: &str) -> Option<(u32, SaidFile<'_>)> {
+    let said = line.trim_start().strip_prefix('#')?.trim_start();
+    let said = said.strip_prefix("line").unwrap_or(said).trim_start();
+    let (number, file) = said.split_at(said.find(|letter: char| !letter.is_ascii_digit()).unwrap_or(said.len()));
+    let (number, file) = (number.parse().ok()?, file.trim());
+    let named = file.strip_prefix('"').map(|rest| rest.split_once('"').map_or(rest, |(name, _)| name));
+    let counted = || file.parse().map_or(SaidFile::Same, SaidFile::Number);
+    Some((number, named.map_or_else(counted, SaidFile::Named)))
 }
 
 /// What an instruction names and does, in words of shaders.
@@ -143,5 +184,32 @@ mod tests {
         assert_eq!(place("discard").as_deref(), Some("a/b.frag:3"));
         assert_eq!(place("far").as_deref(), Some("a/b.frag:70"));
         assert_eq!(place("near"), None);
+    }
+    /// DO-1: lines of another file are that file's.
+    #[test]
+    fn lines_behind_the_name_of_another_file_stand_in_that_one() {
+        let text = "own\n#line 12 \"inc/cut.hlsl\"\ndiscard\n\nlast\n#line 3\nhere\n# 2 \"a.hlsl\" 2\nback\n\
+            #line 5 1\nunknown\n#line 9 0\nagain\n";
+        let lines = ModuleLines::of(&Module::new(), vec![("a.hlsl".to_owned(), text.to_owned())]);
+        for (word, expected) in [
+            ("own", Some("a.hlsl:1")),
+            ("discard", Some("inc/cut.hlsl:12")),
+            ("last", Some("inc/cut.hlsl:14")),
+            ("here", Some("inc/cut.hlsl:3")),
+            ("back", Some("a.hlsl:2")),
+            ("unknown", None),
+            ("again", Some("a.hlsl:9")),
+        ] {
+            assert_eq!(lines.place(|it| it == word).as_deref(), expected, "{word}");
+        }
+    }
+
+    /// DO-4: a module may name as many files as it likes.
+    #[test]
+    fn no_more_files_than_a_limit_are_kept() {
+        let texts = (0..MOST_FILES + 9).map(|at| (format!("{at}.frag"), "discard\n".repeat(3)));
+        let lines = ModuleLines::of(&Module::new(), texts.collect());
+        assert_eq!(lines.files.len(), MOST_FILES);
+        assert_eq!(lines.place(|word| word == "discard").as_deref(), Some("0.frag:1"));
     }
 }

@@ -14,6 +14,9 @@ const HEADER: usize = 5;
 /// The most ids that a module may have: a limit of SPIR-V's own ("Universal Limits").
 const MOST_IDS: u32 = 0x003f_ffff;
 
+/// Bytes of all texts that are taken of a module, and of the names of their files.
+const MOST_TEXT: usize = 4 << 20;
+
 /// The last version, 1.x, that Vulkan 1.3 takes.
 const LAST_VERSION: u32 = 6;
 
@@ -121,38 +124,69 @@ fn in_order(bytes: &[u8]) -> Vec<u32> {
     words
 }
 
-/// The texts that a file whose words are good was compiled of, as far as it holds them: each with the name of its file.
+/// The texts that a file whose words are good was compiled of, as far as it holds them: each with the name of its file. A pair of file and
+/// text is taken once, and no more than [`MOST_TEXT`] of all: a module may name one long text as often as it likes.
 pub(super) fn texts(bytes: &[u8]) -> Vec<(String, String)> {
     let words = in_order(bytes);
     let all = split(words.get(HEADER..).unwrap_or_default()).unwrap_or_default();
-    let (mut strings, mut sets, mut texts): (HashMap<u32, String>, _, Vec<(String, String)>) =
-        (HashMap::new(), HashSet::new(), Vec::new());
-    let mut goes_on = false;
+    let (mut strings, mut sets, mut pairs): (HashMap<u32, &[u32]>, _, _) =
+        (HashMap::new(), HashSet::new(), HashSet::new());
+    let mut taken = Texts::default();
     for it in all {
-        let said = |id: &u32| strings.get(id).cloned().unwrap_or_default();
+        let said = |id: &u32| strings.get(id).copied().unwrap_or_default();
         match (it[0] & 0xffff, &it[1..]) {
-            (op::STRING, [id, name @ ..]) => _ = strings.insert(*id, text(name)),
+            (op::STRING, [id, name @ ..]) => _ = strings.insert(*id, name),
             (op::EXT_INST_IMPORT, [id, name @ ..]) if text(name) == debug::SET => _ = sets.insert(*id),
-            (op::SOURCE, [_, _, file, words @ ..]) => {
-                goes_on = !words.is_empty();
-                texts.extend(goes_on.then(|| (said(file), text(words))));
-            }
+            (op::SOURCE, [_, _, file, words @ ..]) => taken.begin(said(file), words),
             (op::EXT_INST, [_, _, set, debug::SOURCE, file, words]) if sets.contains(set) => {
-                goes_on = true;
-                texts.push((said(file), said(words)));
+                match pairs.insert((*file, *words)) {
+                    true => taken.begin(said(file), said(words)),
+                    false => taken.goes_on = false,
+                }
             }
-            (op::SOURCE_CONTINUED, words) if goes_on => {
-                texts.last_mut().into_iter().for_each(|it| it.1 += &text(words))
-            }
-            (op::EXT_INST, [_, _, set, debug::SOURCE_CONTINUED, words]) if goes_on && sets.contains(set) => {
-                let more = said(words);
-                texts.last_mut().into_iter().for_each(|it| it.1 += &more);
+            (op::SOURCE_CONTINUED, words) => taken.go_on(words),
+            (op::EXT_INST, [_, _, set, debug::SOURCE_CONTINUED, words]) if sets.contains(set) => {
+                taken.go_on(said(words));
             }
             _ => {}
         }
     }
-    texts.retain(|(file, text)| !file.is_empty() && !text.is_empty());
-    texts
+    taken.all
+}
+
+/// Texts that are taken, with the names of their files, and how many bytes.
+#[derive(Default)]
+struct Texts {
+    all: Vec<(String, String)>,
+    bytes: usize,
+    /// Whether what goes on belongs to the last one.
+    goes_on: bool,
+}
+
+impl Texts {
+    fn begin(&mut self, file: &[u32], words: &[u32]) {
+        let pair = self.text(file).and_then(|file| Some((file, self.text(words)?)));
+        self.goes_on = pair.is_some();
+        self.all.extend(pair);
+    }
+
+    fn go_on(&mut self, words: &[u32]) {
+        let more = if self.goes_on { self.text(words) } else { None };
+        match self.all.last_mut().zip(more) {
+            Some((last, more)) => last.1 += &more,
+            None => self.goes_on = false,
+        }
+    }
+
+    /// `None`: it is empty, or more than may be taken.
+    fn text(&mut self, words: &[u32]) -> Option<String> {
+        let bytes = self.bytes.saturating_add(size_of_val(words));
+        if bytes > MOST_TEXT {
+            return None;
+        }
+        self.bytes = bytes;
+        Some(text(words)).filter(|text| !text.is_empty())
+    }
 }
 
 /// The instructions.
@@ -267,5 +301,36 @@ mod tests {
         let by_constants = [0x0006_014b, 1, 38, 7, 7, 8, 0x0004_002b, 2, 7, 64, 0x0004_0032, 2, 8, 3];
         let found = words(&module(0x0001_0600, &by_constants)).expect("read");
         assert_eq!(found[HEADER..HEADER + 6], [0x0006_0010, 1, 17, 64, 64, 3]);
+    }
+    /// A string of a module, in words.
+    fn string(text: &str) -> Vec<u32> {
+        let bytes = [text.as_bytes(), &[0; 4]].concat();
+        bytes.as_chunks::<4>().0.iter().map(|word| u32::from_le_bytes(*word)).collect()
+    }
+
+    fn instruction(opcode: u32, operands: &[u32]) -> Vec<u32> {
+        [&[(operands.len() as u32 + 1) << 16 | opcode], operands].concat()
+    }
+
+    /// DO-4: one long text that a module names often is taken once, and different ones up to a limit.
+    #[test]
+    fn no_more_than_a_limit_is_taken_of_all_texts() {
+        let named = |id: u32, text: &str| instruction(op::STRING, &[&[id], &string(text)[..]].concat());
+        let long = "long ".repeat(40_000);
+        let head = [instruction(op::EXT_INST_IMPORT, &[&[1], &string(debug::SET)[..]].concat()), named(2, &long)];
+        let source = |file: u32| instruction(op::EXT_INST, &[9, 9, 1, debug::SOURCE, file, 2]);
+        let more = instruction(op::EXT_INST, &[9, 9, 1, debug::SOURCE_CONTINUED, 2]);
+        let found = |parts: &[Vec<u32>]| texts(&module(0x0001_0600, &[&head.concat()[..], &parts.concat()].concat()));
+        let again = found(&[&[named(3, "a.frag")][..], &vec![source(3); 30]].concat());
+        assert_eq!(again, [("a.frag".to_owned(), long.clone())]);
+        let files: Vec<Vec<u32>> = (3..103).flat_map(|id| [named(id, &format!("{id}.frag")), source(id)]).collect();
+        let goes_on = [&[named(3, "a.frag"), source(3)][..], &vec![more; 100]].concat();
+        let inside = |words: &str| instruction(op::SOURCE, &[&[2, 450, 3], &string(words)[..]].concat());
+        let named_long = [&[named(3, &long)][..], &vec![inside("main"); 100]].concat();
+        for parts in [files, goes_on, named_long] {
+            let found = found(&parts);
+            let bytes: usize = found.iter().map(|(file, text)| file.len() + text.len()).sum();
+            assert!((MOST_TEXT - 2 * long.len()..=MOST_TEXT).contains(&bytes), "{bytes}");
+        }
     }
 }

@@ -99,3 +99,36 @@ fn follow(builder: &mut Builder, function: &mut Function, mut known: HashSet<Wor
     }
     true
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rspirv::spirv::FunctionControl;
+
+    /// DO-1: a storage block of an old version that is handed to a function can't be followed there.
+    #[test]
+    fn a_storage_block_that_is_handed_to_a_function_is_refused() {
+        let raised = |hands: bool| {
+            let mut builder = Builder::new();
+            builder.set_version(1, 0);
+            let (void, uint) = (builder.type_void(), builder.type_int(32, 0));
+            let block = builder.type_struct([uint]);
+            builder.decorate(block, Decoration::BufferBlock, []);
+            let pointer = builder.type_pointer(None, StorageClass::Uniform, block);
+            let variable = builder.variable(pointer, None, StorageClass::Uniform, None);
+            let takes = builder.type_function(void, [pointer]);
+            let callee = builder.begin_function(void, None, FunctionControl::NONE, takes).expect("a function");
+            builder.function_parameter(pointer).expect("in a function");
+            builder.begin_block(None).expect("a block");
+            if hands {
+                builder.function_call(void, None, callee, [variable]).expect("in a block");
+            }
+            builder.ret().expect("in a block");
+            builder.end_function().expect("in a function");
+            raise(&mut builder).err().map(|refused| refused.what)
+        };
+        let what = "it hands a storage block to a function, and one draw for both eyes' layers takes it inlined";
+        assert_eq!(raised(true).as_deref(), Some(what));
+        assert_eq!(raised(false), None);
+    }
+}

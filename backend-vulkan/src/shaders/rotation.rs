@@ -5,6 +5,7 @@
 //! that looks at it anywhere. What a function hands to another can't be followed, nor can positions that a vertex stage
 //! only partly turns.
 
+use super::eyes::EYE;
 use super::module::{IndexedModule, id};
 use super::module_checks;
 use super::text::RefusedStage;
@@ -17,8 +18,12 @@ use std::collections::HashSet;
 /// The number of the constant that says by how much the picture is turned.
 pub(super) const ROTATION: u32 = 100;
 
-/// The constants of `include/rotation.glsl`, from that number on. Pipelines set them by their numbers.
-const CONSTANTS: [&str; 3] = ["framewright_rotation", "framewright_turned_width", "framewright_turned_height"];
+/// The constants of `include/rotation.glsl`, from that number on, which pipelines set by their numbers, and behind them the one that stands
+/// for the eye in a text of HLSL or Slang.
+const CONSTANTS: [&str; 4] = ["framewright_rotation", "framewright_turned_width", "framewright_turned_height", EYE];
+
+/// The number of the constant that stands for the eye.
+pub(super) const EYE_CONSTANT: u32 = ROTATION + CONSTANTS.len() as u32 - 1;
 
 /// That a stage which draws has no constant of its own in the place of one of these.
 pub(super) fn check_constants(module: &IndexedModule<'_>, stage: ShaderStage) -> Result<(), RefusedStage> {
@@ -31,10 +36,9 @@ pub(super) fn check_constants(module: &IndexedModule<'_>, stage: ShaderStage) ->
         let own = number.checked_sub(ROTATION).and_then(|at| CONSTANTS.get(at as usize));
         let name = module.name(constant);
         if own.is_some_and(|own| *own != name) {
-            let last = ROTATION + CONSTANTS.len() as u32 - 1;
             let what = format!(
-                "`{name}` has the `constant_id` {number}: {ROTATION} to {last} say how pictures are turned, and would change it; \
-                 take another number"
+                "`{name}` has the `constant_id` {number}: {ROTATION} to {EYE_CONSTANT} say how pictures are turned and which eye is \
+                 drawn for, and would change it; take another number"
             );
             return Err(RefusedStage::named(name, what));
         }

@@ -175,8 +175,8 @@ impl ShaderCompilers {
         Ok(compilers)
     }
 
-    /// Whether what compiles a language knows the index of a view: DXC and slangc do, and of others it isn't known. GLSL asks for it by an
-    /// extension.
+    /// Whether what compiles a language knows the index of a view: shaderc, glslang and glslc don't, DXC and slangc do. A command that isn't
+    /// known is taken for one that does. GLSL asks for it by an extension.
     pub(super) fn knows_views(&self, language: Option<FileLanguage>) -> bool {
         let of_glslang = |command: &CompilerCommand| {
             known(&command.program).is_some_and(|known| ["glslangValidator", "glslc"].contains(&known.name))

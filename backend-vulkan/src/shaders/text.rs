@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 /// Why a stage can't be used, and the words of its text that show where.
 #[derive(Debug)]
 pub(super) struct RefusedStage {
-    what: String,
+    pub(super) what: String,
     shown_by: Words,
 }
 
