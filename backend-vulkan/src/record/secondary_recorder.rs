@@ -73,7 +73,6 @@ impl<'f> SecondaryRecorder<'f> {
     }
 
     /// What secondary command buffers are begun with, beside `RENDER_PASS_CONTINUE`: [`ScopeFormats::inheritance`].
-    #[must_use]
     pub fn inheritance(&self) -> vk::CommandBufferInheritanceRenderingInfo<'_> {
         self.formats.inheritance()
     }
@@ -151,7 +150,6 @@ impl<'f> SecondaryRecorder<'f> {
 
 impl ScopeFormats {
     /// What secondary command buffers are begun with whose draws go into such a scope, beside `RENDER_PASS_CONTINUE`. It points into `self`.
-    #[must_use]
     pub fn inheritance(&self) -> vk::CommandBufferInheritanceRenderingInfo<'_> {
         vk::CommandBufferInheritanceRenderingInfo::default()
             .flags(FLAGS)
