@@ -13,7 +13,7 @@ use framewright_passes::shipped::SHADERS;
 use framewright_vulkan::ShaderLibrary;
 use rspirv::dr::{Instruction, Module, Operand};
 use rspirv::spirv::{Capability, Op, StorageClass};
-use spirv::{capabilities, disassembled, module, optimised, tool, valid};
+use spirv::{capabilities, code, disassembled, module, optimised, tool, valid};
 use std::fs;
 
 /// Ways to draw for both eyes at once.
@@ -309,4 +309,33 @@ fn which_eye_is_drawn_for_is_known_in_files_that_are_included_too() {
     let [left, right] = [of(Eye::Left), of(Eye::Right)];
     assert_ne!(left[1], right[1], "the right eye's is another shader");
     assert_eq!(left[0], right[0], "vertices don't ask");
+}
+
+/// ST-5: an instance's number less the first one's is what it is for one eye. What counts both eyes' instances also counts the first.
+#[test]
+fn the_first_instance_of_a_draw_is_told_without_the_eye() {
+    let names = ["gl_BaseInstance", "gl_BaseInstanceARB", "0"];
+    let counted = |name: &str, way: (EyeSource, EyeForm)| {
+        let head = "#version 460\n#extension GL_ARB_shader_draw_parameters : require\n";
+        let vertex = format!("{head}void main() {{ gl_Position = vec4(float(gl_InstanceIndex - {name})); }}");
+        let files = Files::of(&[
+            ("test.vert", &vertex),
+            ("test.frag", &format!("{HEAD}{DECLARED}void main() {{ color = vec4(1.0); }}")),
+        ]);
+        let [vertex, _] = files.compiled(&both(way, &[])).unwrap_or_else(|problem| panic!("{way:?}: {problem:?}"));
+        valid(&vertex);
+        let module = module(&vertex);
+        let count = |op: Op| code(&module).filter(|it| it.class.opcode == op).count();
+        [count(Op::BitwiseAnd), count(Op::ShiftRightLogical)]
+    };
+    for way in WAYS {
+        let [own, by_extension, without] = names.map(|name| counted(name, way));
+        let more = match way.0 {
+            EyeSource::InstanceBit => [1, 0],
+            EyeSource::InstanceParity => [0, 1],
+            EyeSource::ViewIndex | EyeSource::One(_) => [0, 0],
+        };
+        assert_eq!(own, [without[0] + more[0], without[1] + more[1]], "{way:?}");
+        assert_eq!(by_extension, own, "{way:?}");
+    }
 }
