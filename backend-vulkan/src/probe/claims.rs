@@ -97,6 +97,7 @@ fn support(instance: &ash::Instance, physical: vk::PhysicalDevice, format: Forma
         (Feature::STORAGE_IMAGE, Usage::STORAGE),
         (Feature::COLOR_ATTACHMENT, Usage::COLOR_ATTACHMENT),
         (Feature::DEPTH_STENCIL_ATTACHMENT, Usage::DEPTH_STENCIL_ATTACHMENT),
+        (Feature::FRAGMENT_SHADING_RATE_ATTACHMENT_KHR, Usage::FRAGMENT_SHADING_RATE_ATTACHMENT_KHR),
     ];
     let mut usage =
         uses.iter().filter(|(feature, _)| features.contains(*feature)).fold(Usage::empty(), |all, it| all | it.1);

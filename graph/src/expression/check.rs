@@ -405,7 +405,8 @@ impl Check<'_> {
 /// What is wrong with a value that each frame has its own of.
 fn of_frame(program: &Program, value: FrameValue, range: Range<u32>) -> Diagnostic {
     let message = format!("`{}` is another value in each frame, and a Plan holds for all", value.word());
-    let help = "it stands alone in `params`, where the shader computes with it; let a setting decide anything else";
+    let help = "it stands alone in `params`, where the shader computes with it; `run: Once` or `run: Every(4)` says in which frames \
+                a pass runs; let a setting decide anything else";
     program.text.mistake(Code::FRAME_VALUE, range, message).help(help)
 }
 

@@ -10,10 +10,11 @@ use crate::device::{Limit, Need, NeedKind};
 const DIVISOR: &str = "vertexAttributeInstanceRateDivisor";
 
 impl DrawInterface {
-    /// The attribute that a shader means, if it is brought along.
+    /// The attribute that a shader means, if it is brought along: by its name, or else by its location.
     #[must_use]
     pub fn attribute(&self, input: &VertexInput) -> Option<&Attribute> {
-        self.attributes.iter().find(|attribute| attribute.is_called(input))
+        let named = self.attributes.iter().find(|it| it.is_called(input));
+        named.or_else(|| self.attributes.iter().find(|it| it.location == Some(input.location)))
     }
 
     /// Where a shader's attribute is read, location by location.

@@ -1,6 +1,6 @@
 //! The vertices that a draw source brings along: its buffers, and the attributes in them.
 
-use super::{VertexInput, location_name};
+use super::VertexInput;
 use crate::vulkan::{Component, VertexFormat};
 use std::borrow::Cow;
 
@@ -26,6 +26,9 @@ pub enum VertexRate {
     },
 }
 
+/// What DXC puts before the semantic of an input.
+const SEMANTIC: &str = "in.var.";
+
 /// A vertex attribute that is brought along. Shaders read it by its name, with as many components as they like: those that it doesn't
 /// have are 0, and the fourth is 1.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -36,7 +39,7 @@ pub struct Attribute {
     pub format: VertexFormat,
     /// How many locations it takes, one behind the other in the buffer, at least 1: of a matrix as many as it has columns.
     pub locations: u32,
-    /// Where shaders without names read it; `None`: they can't.
+    /// Where shaders read it that have no name for it, or that of no attribute; `None`: they can't.
     pub location: Option<u32>,
     /// The number of its vertex buffer.
     pub buffer: u32,
@@ -139,18 +142,21 @@ impl Attribute {
         self
     }
 
-    /// The same, read at this location by shaders without names.
+    /// The same, read at this location by shaders that have no name for it, or that of no attribute.
     #[must_use]
     pub const fn at_location(mut self, location: u32) -> Attribute {
         self.location = Some(location);
         self
     }
 
-    /// Whether a shader means this: by its name, or by its place where it has no names.
+    /// Whether a shader means this by its name. Compilers of HLSL name what lies in a structure `vertex.position`: then the member's name
+    /// counts. DXC tells the semantic alone, `in.var.POSITION`, and HLSL ignores the case of semantics.
     #[must_use]
     pub fn is_called(&self, input: &VertexInput) -> bool {
-        *self.name == *input.name
-            || self.location == Some(input.location) && input.name == location_name(input.location)
+        match input.name.strip_prefix(SEMANTIC) {
+            Some(semantic) => self.name.eq_ignore_ascii_case(semantic),
+            None => input.name.rsplit('.').next() == Some(&*self.name),
+        }
     }
 
     /// What is wrong with it in these buffers, in words.

@@ -24,6 +24,8 @@ pub struct LanguageFacts {
     pub name: &'static str,
     /// The ending of its files.
     pub ending: &'static str,
+    /// The ending of the shipped files that it includes, `include/part.hlsl`; `None`: it isn't told what passes tell of images and eyes.
+    pub includes: Option<&'static str>,
 }
 
 impl FileLanguage {
@@ -34,19 +36,28 @@ impl FileLanguage {
     /// What there is to know of it.
     #[must_use]
     pub const fn facts(self) -> LanguageFacts {
-        let (name, ending) = match self {
-            FileLanguage::Spirv => ("SPIR-V", ".spv"),
-            FileLanguage::Hlsl => ("HLSL", ".hlsl"),
-            FileLanguage::Slang => ("Slang", ".slang"),
-            FileLanguage::Wgsl => ("WGSL", ".wgsl"),
+        let (name, ending, includes) = match self {
+            FileLanguage::Spirv => ("SPIR-V", ".spv", None),
+            FileLanguage::Hlsl => ("HLSL", ".hlsl", Some(".hlsl")),
+            FileLanguage::Slang => ("Slang", ".slang", Some(".hlsl")),
+            FileLanguage::Wgsl => ("WGSL", ".wgsl", None),
         };
-        LanguageFacts { name, ending }
+        LanguageFacts { name, ending, includes }
     }
 
     /// The language of a file, by its ending.
     #[must_use]
     pub fn of_file(file: &str) -> Option<FileLanguage> {
         FileLanguage::ALL.into_iter().find(|language| file.ends_with(language.facts().ending))
+    }
+
+    /// The language of the stage that draws colours, or computes, in the shader of this text; `None`: GLSL.
+    #[must_use]
+    pub fn of_shader(text: &str) -> Option<FileLanguage> {
+        match ShaderName::of_text(text).main() {
+            StageName::Glsl(_) => None,
+            StageName::File { file, .. } => FileLanguage::of_file(file),
+        }
     }
 }
 

@@ -371,6 +371,7 @@ fn do_9_the_frame_s_number_and_time_stand_alone_and_in_parameters_alone() {
     assert!(sum.contains("it stands alone in `params`"), "{sum}");
     let size = wrong(&map(1, "", "").replace("Fixed(64, 64)", r#"Fixed("frame + 1", 64)"#), &INPUTS);
     assert!(size.contains("E0311") && size.contains("`frame` is another value in each frame"), "{size}");
+    assert!(size.contains("`run: Once`"), "{size}");
 }
 
 /// `sky` is drawn once, and `grade` is off: it forwards `sky` to `kept`, an image of this lifetime.

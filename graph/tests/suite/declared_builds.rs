@@ -3,7 +3,7 @@
 use crate::testing::parts;
 use crate::testing::pipelines::{INPUTS, right, wrong};
 use crate::testing::plans::{compiled, on};
-use framewright_graph::device::Profile;
+use framewright_graph::device::{Profile, SHIPPED_PROFILES};
 use framewright_graph::plan::{MemoryBarrier, Plan, Step};
 use framewright_graph::verify::verify;
 use framewright_graph::vulkan::{Accesses, BufferUsage, Stages};
@@ -131,6 +131,28 @@ fn do_8_shading_rates_that_the_plans_scope_would_not_have_are_refused() {
     let said = wrong(&drawn, &INPUTS);
     let what = "`rates` is declared as the shading rates of the pass's rendering scope, which has none";
     assert!(said.contains(what) && said.contains("test.ron:6:"), "{said}");
+}
+
+#[test]
+fn do_8_every_device_with_shading_rates_has_them_in_the_format_that_vulkan_demands() {
+    let frame = right(&rates(&format!(r#"reads: ["rates", "kept"], {RATES}"#)), &INPUTS);
+    let mut have = 0;
+    for (name, text) in SHIPPED_PROFILES {
+        let profile = Profile::from_ron(text).expect("a profile");
+        if profile.has_feature("attachmentFragmentShadingRate") {
+            on(&frame, &profile).unwrap_or_else(|errors| panic!("{name}: {errors:?}"));
+            have += 1;
+        }
+    }
+    assert_eq!(have, 3);
+    // A format that has no such use is named with what declares it.
+    let other = rates(&format!(r#"reads: ["rates", "kept"], {RATES}"#)).replace("R8_UINT", "R16_SFLOAT");
+    let profile =
+        Profile::from_ron(SHIPPED_PROFILES.iter().find(|it| it.0 == "nvidia-rtx-2080").expect("it is there").1);
+    let errors = on(&right(&other, &INPUTS), &profile.expect("a profile")).expect_err("no such use");
+    let [wrong] = &errors[..] else { panic!("{errors:?}") };
+    assert!(wrong.message.ends_with("no FRAGMENT_SHADING_RATE_ATTACHMENT_KHR"), "{wrong:?}");
+    assert!(wrong.labels.iter().any(|it| it.text == "pass `build` declares this use"), "{wrong:?}");
 }
 
 #[test]

@@ -146,6 +146,27 @@ fn a_shader_reads_each_location_where_it_lies() {
     assert!(read(&input(0, 0, "place", "vec4")).is_ok(), "what is lacking is 0 and 1");
 }
 
+#[test]
+fn do_5_compilers_of_hlsl_keep_other_names_than_those_of_the_interface() {
+    let mut brought = grass();
+    brought.attributes[0].location = Some(6);
+    let called = |location, name: &str, ty| {
+        let input = input(location, 0, name, ty);
+        brought.attribute(&input).map(|it| it.name.to_string())
+    };
+    for name in
+        ["place", "vertex.place", "scene.vertex.place", "in.var.PLACE", "in.var.Place", "anything", "location 6"]
+    {
+        assert_eq!(called(6, name, "vec2").as_deref(), Some("place"), "{name}");
+    }
+    for name in ["tint", "vertex.tint", "in.var.TINT"] {
+        assert_eq!(called(6, name, "vec4").as_deref(), Some("tint"), "{name}: a name comes before a location");
+    }
+    for name in ["PLACE", "vertex.PLACE", "place.vertex", "in.var.PLACE0", "vertex.in.var.PLACE", "location 5"] {
+        assert_eq!(called(5, name, "vec2"), None, "{name}");
+    }
+}
+
 /// Why a device of the least limits, which reads these formats, doesn't draw what such a shader reads.
 fn unmet(inputs: &[VertexInput], brought: &DrawInterface, formats: &[VertexFormat]) -> Vec<String> {
     let abilities = Abilities {

@@ -58,8 +58,16 @@ fn refusal(
         Resource::Buffer(_) => Span::NONE,
     };
     let name = resource_name(frame, adapted, at);
+    let mut declared = frame.passes.iter().flat_map(|pass| pass.uses.iter().map(move |it| (pass, it)));
+    let declared =
+        declared.find(|(_, it)| it.resource == resource.of && it.state.accesses.image_usage().intersects(missing));
     let missing = missing.iter_names().map(|(name, _)| name).collect::<Vec<_>>().join(", ");
     let message = format!("`{name}` can't be {} on `{}`: no {missing}", image.format, device.name);
+    if let Some((pass, used)) = declared {
+        let wrong = Diagnostic::new(Code::FORMAT_UNSUPPORTED, span, message);
+        let wrong = wrong.label(used.span, format!("pass `{}` declares this use", pass.name));
+        return wrong.help("choose another format, or leave the use out");
+    }
     let help = format!("it takes that since {}; choose another format", why(adapted, resource, at));
     Diagnostic::new(Code::FORMAT_UNSUPPORTED, span, message).help(help)
 }

@@ -4,7 +4,7 @@ use super::variant;
 use crate::base::{Code, Diagnostic};
 use crate::expand::resources::Resources;
 use crate::language;
-use crate::shader::{MOST_PARTS, ShaderInterface, declared_name, element_of};
+use crate::shader::{FileLanguage, LanguageFacts, MOST_PARTS, ShaderInterface, declared_name, element_of};
 
 /// The mistake of a shader that samples or reads the image `part` as `name`, of which only a part is in use, and doesn't ask for that part;
 /// `None` if it asks. `by`: how it could find the part.
@@ -30,7 +30,29 @@ pub(super) fn not_asked(
         return None;
     }
     let message = format!("shader `{shader}` {reads} `{name}` and doesn't ask which part of `{image}` is in use");
-    wrong(message, format!("include `include/part.glsl` and look it up by `{by}`"))
+    let help = match FileLanguage::of_shader(shader).map(FileLanguage::facts) {
+        None => format!("include `include/part.glsl` and look it up by `{by}`"),
+        Some(LanguageFacts { includes: Some(ending), .. }) => {
+            format!("include `include/part{ending}` and look it up by `{by}`")
+        }
+        Some(LanguageFacts { name, .. }) => format!("{name} isn't told of parts: write the shader in GLSL or HLSL"),
+    };
+    wrong(message, help)
+}
+
+/// How a shader could find its eye's half of the image that it samples as `name`.
+pub(super) fn half_help(shader: &str, name: &str) -> String {
+    match FileLanguage::of_shader(shader).map(FileLanguage::facts) {
+        None => format!(
+            "include `include/texture.glsl` and look it up by `found_in({name}, {name}_st, uv)` or `texel_in({name}, {name}_st, texel)`"
+        ),
+        Some(LanguageFacts { includes: Some(ending), .. }) => {
+            format!("include `include/part{ending}` and look it up by `uv_adjust(uv, {name}_st)`")
+        }
+        Some(LanguageFacts { name, .. }) => {
+            format!("{name} isn't told of halves: draw in a mode with layers, or by `multi-pass`")
+        }
+    }
 }
 
 /// A shader can be told of some parts only.

@@ -389,9 +389,7 @@ impl Check<'_> {
         let declared = self.resources.declared(self.sample.part.image.index).name.span;
         let wrong = Diagnostic::new(Code::EYE_HALF, self.sample.part.image.span, message);
         let wrong = wrong.label(declared, "both eyes' pictures lie side by side in it");
-        errors.push(wrong.help(format!(
-            "include `include/texture.glsl` and look it up by `found_in({name}, {name}_st, uv)` or `texel_in({name}, {name}_st, texel)`"
-        )));
+        errors.push(wrong.help(parts_in_use::half_help(self.shader, name)));
     }
 
     /// A fragment can read its own texel only of an image that lies under the pass's targets.

@@ -408,7 +408,9 @@ impl ShaderInterfaces for Table {
                 texture("soft", 1, false, float),
                 params(&[("strength", "float")]),
             ]),
-            "deaf" => ShaderInterface { asks_part: Vec::new(), ..full_screen(vec![source()]) },
+            "deaf" | "deaf.hlsl:main" | "deaf.wgsl:main" => {
+                ShaderInterface { asks_part: Vec::new(), ..full_screen(vec![source()]) }
+            }
             "any_texture" => full_screen(vec![adapting("source", variant)]),
             "custom_resolve" => full_screen(vec![texture("source", 0, true, float)]),
             "count" => full_screen(vec![texture("source", 0, false, Component::Uint)]),

@@ -292,6 +292,21 @@ fn in_halves_shaders_ask_which_half_is_theirs_and_in_layers_they_need_not() {
     }
 }
 
+/// ST-2: HLSL includes other files than GLSL, and WGSL none.
+#[test]
+fn st_2_a_shader_that_misses_its_half_is_told_what_its_language_has_for_that() {
+    let helps = [
+        ("deaf", "include `include/texture.glsl` and look it up by `found_in(source, source_st, uv)`"),
+        ("deaf.hlsl:main", "include `include/part.hlsl` and look it up by `uv_adjust(uv, source_st)`"),
+        ("deaf.wgsl:main", "WGSL isn't told of halves: draw in a mode with layers, or by `multi-pass`"),
+    ];
+    for (shader, help) in helps {
+        let text = pipeline("", "").replace("FullScreen(\"reinhard\")", &format!("FullScreen(\"{shader}\")"));
+        let said = wrong(&text, &drawn(Stereo::DoubleWide));
+        assert!(said.contains(help), "{said}");
+    }
+}
+
 /// Draws are recorded for each half, with its viewport and scissor; instances are cut by a clip distance, and in layers by nothing.
 #[test]
 fn double_wide_takes_nothing_of_a_device_and_instances_a_layer_or_a_clip_distance() {
