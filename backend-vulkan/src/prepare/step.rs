@@ -23,7 +23,7 @@ pub(crate) enum PreparedStep {
     /// The objects of a rendering scope's passes.
     Render(Vec<PreparedDraw>),
     /// The objects of a dispatch.
-    Dispatch(PreparedDispatch),
+    Dispatch(Box<PreparedDispatch>),
     /// Other work, which has no objects.
     Plain,
 }
@@ -38,7 +38,9 @@ impl PreparedStep {
     ) -> Result<PreparedStep, Error> {
         Ok(match &step.work {
             Work::Render(scope) => PreparedStep::Render(prepare_scope(gpu, plan, scope, (shaders, frames))?),
-            Work::Dispatch(pass) => PreparedStep::Dispatch(prepare_dispatch(gpu, plan, pass, (shaders, frames))?),
+            Work::Dispatch(pass) => {
+                PreparedStep::Dispatch(Box::new(prepare_dispatch(gpu, plan, pass, (shaders, frames))?))
+            }
             Work::Custom(_) | Work::Resolve(_) | Work::Copy(_) | Work::Blit(_) | Work::Fill(_) | Work::Export => {
                 PreparedStep::Plain
             }
