@@ -73,6 +73,8 @@ impl Frame {
             Some("access: Write")
         } else if matches!(pass.work, Work::Custom { .. })
             && pass.transfers.iter().any(|it| it.write && it.resource == of)
+            // What it reads too may stay as it is in part.
+            && !pass.transfers.iter().any(|it| !it.write && (it.resource, it.frames_ago) == (of, 0))
         {
             Some("writes")
         } else {

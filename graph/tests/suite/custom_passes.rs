@@ -2,17 +2,19 @@
 
 use crate::testing::parts::device;
 use crate::testing::pipelines::{INPUTS, right};
-use crate::testing::plans::compiled;
+use crate::testing::plans::{compiled, image, on, refused, shipped};
 use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
-use framewright_graph::device::MemoryEstimate;
+use framewright_graph::device::{MemoryEstimate, Profile, Queues};
 use framewright_graph::frame::{
     Buffer, BufferIndex, BufferRole, BufferUse, ColorTarget, Draw, Frame, Groups, Image, ImageIndex, Lifetime, Pass,
     Resource, SampledImage, TransferUse, Work,
 };
 use framewright_graph::plan::{self, Plan};
 use framewright_graph::verify::verify;
-use framewright_graph::vulkan::{Accesses, BufferUsage, FillValue, Format, Stages, Subresources};
+use framewright_graph::vulkan::{
+    Accesses, BufferUsage, FillValue, Format, Layout, Sharing, Stages, Subresources, Usage,
+};
 
 fn buffer(name: &str, lifetime: Lifetime) -> Buffer {
     Buffer { name: name.into(), span: Span::NONE, bytes: 256, lifetime }
@@ -157,4 +159,101 @@ fn a_custom_pass_without_uses_reads_what_the_host_wrote() {
         outputs: ["screen", "b"])"#;
     let plan = compiled(&right(text, &INPUTS));
     assert_eq!(verify(&plan), []);
+}
+
+/// A pipeline whose pass `both` is custom, with these fields, and whose pass `look` reads what that may have changed.
+fn both(fields: &str) -> Frame {
+    let text = format!(
+        r#"Pipeline(version: 1,
+        images: [(name: "screen", format: R8G8B8A8_UNORM, size: Output),
+            (name: "kept", format: R16G16B16A16_SFLOAT, size: Fixed(64, 64), mips: 2, lifetime: Persistent)],
+        buffers: [(name: "made", bytes: 256), (name: "old", bytes: 256, lifetime: Persistent),
+            (name: "args", bytes: 256, lifetime: Imported(before: Host, after: Host))],
+        passes: [(name: "zero", fill: (to: "made", value: 0)),
+            (name: "both", custom: "both", side_effect: true, {fields}),
+            (name: "look", custom: "look", side_effect: true, reads: ["made", "kept"]),
+            (name: "show", draw: FullScreen("plain"), color: ["screen"])],
+        outputs: ["screen"])"#
+    );
+    right(&text, &INPUTS)
+}
+
+/// The accesses to images and buffers of the custom pass `both`, each with its layout.
+fn of_both(plan: &Plan) -> Vec<(Stages, Accesses, Layout)> {
+    let plan::Work::Custom(pass) = &step(plan, "both").work else { panic!("{}", plan.tree()) };
+    let images = pass.accesses.iter().map(|it| (it.stages, it.accesses, it.layout));
+    images.chain(pass.buffers.iter().map(|it| (it.stages, it.accesses, Layout::Undefined))).collect()
+}
+
+/// The test device with one queue and with several, and devices that are shipped.
+fn devices() -> Vec<Profile> {
+    let several = [Sharing::Concurrent, Sharing::Exclusive].map(|sharing| {
+        let queues = Queues { compute: true, transfer: true, sharing, wait_bytes: 0 };
+        Profile { queues, ..device() }
+    });
+    let shipped = ["nvidia-rtx-2080", "amd-rx-7800-xt", "mali-g78", "lavapipe"].map(shipped);
+    [device()].into_iter().chain(several).chain(shipped).collect()
+}
+
+/// The checker takes no Plan in which a pass accesses one part twice, once to read and once to write (DO-8).
+#[test]
+fn what_a_custom_pass_reads_and_writes_is_one_access() {
+    let all = r#"reads: ["made", "old", "args", "kept"], writes: ["made", "old", "args", "kept"]"#;
+    let storage = "stages: [COMPUTE_SHADER], accesses: [SHADER_STORAGE_READ, SHADER_STORAGE_WRITE]";
+    let structure = "stages: [ACCELERATION_STRUCTURE_BUILD_KHR], \
+        accesses: [ACCELERATION_STRUCTURE_READ_KHR, ACCELERATION_STRUCTURE_WRITE_KHR]";
+    let transfer = "stages: [CLEAR, COPY], accesses: [TRANSFER_READ, TRANSFER_WRITE]";
+    let declared = format!(
+        r#"{all}, uses: [(buffer: "made", {storage}), (buffer: "old", {storage}), (buffer: "args", {transfer}),
+            (image: "kept", {storage}, layout: GENERAL)]"#
+    );
+    for device in devices() {
+        let planned = |fields: &str| on(&both(fields), &device).unwrap_or_else(|errors| panic!("{errors:?}"));
+        let plan = planned(all);
+        let (any, transfers) = (Accesses::MEMORY_READ | Accesses::MEMORY_WRITE, Accesses::TRANSFER_WRITE);
+        let transfers = transfers | Accesses::TRANSFER_READ;
+        let accesses = of_both(&plan);
+        assert_eq!(accesses.len(), 4, "{}: {}", device.name, plan.tree());
+        for (stages, accesses, _) in &accesses {
+            assert_eq!((*stages, *accesses), (Stages::ALL_COMMANDS, any | transfers), "{}", device.name);
+        }
+        assert_eq!(accesses[0].2, Layout::General);
+        assert!(image(&plan, "kept").usage.contains(Usage::TRANSFER_SRC | Usage::TRANSFER_DST));
+
+        let plan = planned(&declared);
+        let stored = Accesses::SHADER_STORAGE_READ | Accesses::SHADER_STORAGE_WRITE;
+        let compute = (Stages::COMPUTE_SHADER, stored, Layout::Undefined);
+        let moved = (Stages::CLEAR | Stages::COPY, transfers, Layout::Undefined);
+        let expected = [(Stages::COMPUTE_SHADER, stored, Layout::General), compute, compute, moved];
+        assert_eq!(of_both(&plan), expected, "{}: {}", device.name, plan.tree());
+
+        let part = r#"(image: "kept", mip: 1)"#;
+        let plan = planned(&format!(r#"reads: [{part}, "made"], writes: [(image: "kept", mip: 0), {part}]"#));
+        let layouts: Vec<Layout> = of_both(&plan).iter().map(|it| it.2).collect();
+        assert_eq!(layouts, [Layout::General, Layout::TransferDstOptimal, Layout::Undefined], "{}", plan.tree());
+    }
+    // A refit, where the device builds acceleration structures.
+    let refit = format!(
+        r#"reads: ["made", "old"], writes: ["old"], uses: [(buffer: "old", {structure}),
+        (buffer: "made", stages: [ACCELERATION_STRUCTURE_BUILD_KHR], accesses: [SHADER_READ])]"#
+    );
+    assert_eq!(of_both(&compiled(&both(&refit))).len(), 2);
+}
+
+#[test]
+fn what_a_custom_pass_cannot_read_and_write_is_refused() {
+    for (fields, words) in [
+        (r#"reads: ["kept"], writes: [(image: "kept", mip: 0)]"#, "parts of `kept` that overlap and aren't the same"),
+        (
+            r#"reads: ["old"], color: [(image: "screen", clear: (0.0, 0.0, 0.0, 1.0))]"#,
+            "nothing is transferred beside targets",
+        ),
+        (
+            r#"writes: ["old"], color: [(image: "screen", clear: (0.0, 0.0, 0.0, 1.0))]"#,
+            "nothing is transferred beside targets",
+        ),
+    ] {
+        let said = refused(&both(fields));
+        assert!(said.iter().any(|said| said.contains(words)), "{fields}: {said:?}");
+    }
 }

@@ -7,12 +7,12 @@ use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, Order, compile};
 use framewright_graph::device::{MemoryEstimate, Profile, Queues};
 use framewright_graph::frame::{
-    Blend, Buffer, BufferIndex, BufferRole, BufferUse, ColorTarget, Draw, Frame, Groups, Image, ImageIndex, Lifetime,
-    Pass, Resource, SampledImage, TransferUse, Work,
+    Blend, Buffer, BufferIndex, BufferRole, BufferUse, ColorTarget, DepthTarget, Draw, DrawList, Frame, Groups, Image,
+    ImageIndex, Lifetime, Pass, Resource, SampledImage, TransferUse, Work,
 };
 use framewright_graph::plan::{self, Plan, Queue, Role};
 use framewright_graph::vulkan::{
-    Accesses, Aspects, FillValue, Filter, Format, Layout, Sharing, Stages, State, Subresources,
+    Accesses, Aspects, CompareOp, FillValue, Filter, Format, Layout, Sharing, Stages, State, Subresources,
 };
 
 const EXCLUSIVE: Queues = Queues { compute: true, transfer: true, sharing: Sharing::Exclusive, wait_bytes: 0 };
@@ -275,6 +275,36 @@ fn reading_beside_draws_that_read_the_same_gains_only_where_images_are_concurren
     // Neither reader waits for the other one: the layout changes by itself.
     let expected = ["prepass", "Export", "compute: occlude, after Export", "scene", "tonemap, after occlude"];
     assert_eq!(shown(&compiled(&frame, CONCURRENT)), expected);
+}
+
+/// A scope that tests depth and then writes it is no reader of it: a change of layout before it would be nobody's on its queue.
+#[test]
+fn a_scope_that_reads_depth_and_then_writes_it_takes_no_change_of_layout() {
+    let mut builder = Builder::default();
+    let [depth, pyramid, shadow, color, screen] =
+        ["depth", "pyramid", "shadow", "color", "screen"].map(|name| builder.image(name));
+    builder.0.images[depth.0 as usize].format = Format::D32_SFLOAT;
+    let tested = |name: &str, test, write, clear| {
+        let (range, span) = (Subresources::WHOLE, Span::NONE);
+        let draw = Draw::Objects(DrawList::Opaque);
+        let work = Work::Draw { draw, shader: name.into(), discards: false, per_sample: false };
+        let depth = Some(DepthTarget { image: depth, range, span, clear, test, write, stencil: None });
+        Pass { depth, ..Pass::new(name, work) }
+    };
+    builder.0.passes.push(tested("prepass", CompareOp::GreaterOrEqual, true, Some(0.0)));
+    builder.dispatch("reduce", &[depth], &[], pyramid);
+    builder.draw("shadows", &[], &[], shadow);
+    builder.draw("sky", &[], &[], color);
+    for (name, test, write) in [("opaque", CompareOp::Equal, false), ("masked", CompareOp::GreaterOrEqual, true)] {
+        let color = builder.0.passes.iter().find(|pass| &*pass.name == "sky").map(|sky| sky.color.clone());
+        builder.0.passes.push(Pass { color: color.unwrap_or_default(), ..tested(name, test, write, None) });
+    }
+    builder.draw("tonemap", &[color, pyramid, shadow], &[], screen);
+    let frame = builder.output(screen);
+    // The checker finds that `reduce` doesn't wait for a change of layout that nothing on graphics waits for.
+    let plan = compiled(&frame, CONCURRENT);
+    assert!(shown(&plan).iter().any(|line| line == "compute: reduce, after prepass"), "{:#?}", shown(&plan));
+    assert!(shown(&plan).iter().any(|line| line.contains("opaque + masked")), "{:#?}", shown(&plan));
 }
 
 #[test]

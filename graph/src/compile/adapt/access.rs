@@ -120,6 +120,13 @@ pub(super) fn transfer(work: &Work, transfer: &TransferUse, entry: u32, resource
     Use { entry, layout, reads: made.reads || transfer.keeps, ..made }
 }
 
+/// The use of what a pass of the program reads and writes, of the two that it names.
+pub(super) fn read_and_written(one: Use, other: &Use) -> Use {
+    let layout = if one.layout == Layout::Undefined { Layout::Undefined } else { Layout::General };
+    let (stages, accesses) = (one.stages | other.stages, one.accesses | other.accesses);
+    Use { role: Role::Target, reads: true, writes: true, layout, stages, accesses, ..one }
+}
+
 /// Gives a use by a pass that the program records the stages, accesses and layout that the pass declares of it. What it doesn't declare
 /// may be used by any command: indirect draws, builds of acceleration structures, mesh shaders. So all of them wait, and are waited for.
 pub(super) fn by_program(used: &mut Use, pass: &Pass, images: &[Image]) {

@@ -3,7 +3,7 @@
 use super::access;
 use super::adapter::Adapter;
 use crate::base::{Code, Diagnostic};
-use crate::compile::model::{InitialContents, OpKind, PhysicalIndex};
+use crate::compile::model::{InitialContents, OpKind, PhysicalIndex, Use};
 use crate::frame::{Face, ImageIndex, NoteKind, Pass, SampledImage};
 use crate::vulkan::{Aspects, Subresources};
 
@@ -68,7 +68,7 @@ impl Adapter<'_> {
         }
         for (entry, used) in (0_u32..).zip(&pass.transfers) {
             if let Some((resource, range)) = self.transferred(pass, used) {
-                self.add_use(access::transfer(&pass.work, used, entry, resource, range));
+                self.transfers(pass, access::transfer(&pass.work, used, entry, resource, range));
             }
         }
         if pass.is_custom() {
@@ -80,6 +80,19 @@ impl Adapter<'_> {
         }
         let kind = if pass.work.is_draw() { OpKind::Draw(number) } else { OpKind::Pass(number) };
         self.push_pass(kind, pass.side_effect);
+    }
+
+    /// Adds the use by a transfer. What the program reads and writes in one pass is one access: the Plan can't stand between the two.
+    fn transfers(&mut self, pass: &Pass, used: Use) {
+        let part = |adapter: &Self, used: &Use| (used.resource, adapter.adapted.range(used));
+        let same = |known: &&Use| known.role.is_transfer() && part(self, known) == part(self, &used);
+        let before = if pass.is_custom() { self.uses_of_pass().iter().find(same).copied() } else { None };
+        let Some(before) = before.filter(|before| before.writes != used.writes) else { return self.add_use(used) };
+        let is_before = |known: &&mut Use| known.role == before.role && known.entry == before.entry;
+        self.uses_of_pass_mut()
+            .iter_mut()
+            .filter(is_before)
+            .for_each(|known| *known = access::read_and_written(*known, &used));
     }
 
     /// The physical image that a sampling pass reads.

@@ -255,7 +255,9 @@ impl Adapter<'_> {
         }
         let declared = &self.input.frame.images[image.0 as usize];
         if used.write {
-            return Some((self.written(image, range != Use::ALL), range));
+            let reads = |it: &TransferUse| !it.write && (it.resource, it.frames_ago) == (used.resource, 0);
+            let keeps = range != Use::ALL || pass.is_custom() && pass.transfers.iter().any(reads);
+            return Some((self.written(image, keeps), range));
         }
         let count = self.current_samples(image);
         if count == 1 || copies_samples(self.input.frame, pass) {

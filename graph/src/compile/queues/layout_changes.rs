@@ -6,7 +6,7 @@
 use super::crossing::{Crossing, LayoutChange};
 use super::number::QUEUES;
 use super::step_uses::uses_of;
-use crate::compile::model::{AdaptedFrame, PhysicalIndex, SubresourceIndex};
+use crate::compile::model::{AdaptedFrame, PhysicalIndex, SubresourceIndex, Use};
 use crate::compile::scope::{ScopedSteps, Step};
 use crate::plan::Queue;
 use crate::vulkan::Layout;
@@ -23,6 +23,9 @@ struct LastUse {
 }
 
 /// A change of layout that readers on several queues may come after.
+///
+/// A step that reads and writes is no reader: it changes the layout again, into one that lets it write. As a reader on the queue of the
+/// write it would have the change made, and nothing on that queue would wait for the barrier, so that no semaphore could lead on from it.
 struct Candidate {
     behind: u32,
     change: LayoutChange,
@@ -75,14 +78,20 @@ fn candidates(
     let mut subresources =
         vec![LastUse { layout: Layout::Undefined, written: None, change: None }; adapted.subresources as usize];
     let mut candidates: Vec<Candidate> = Vec::new();
+    // The last step that writes each subresource, this one included.
+    let mut writers: Vec<Option<u32>> = vec![None; adapted.subresources as usize];
     for ((step, at), queue) in steps.iter().zip(0..).zip(queues) {
-        for used in uses_of(adapted, step) {
-            if crossings[used.resource as usize] != Some(Crossing::Image) {
-                continue;
-            }
+        let crossed = |used: &&Use| crossings[used.resource as usize] == Some(Crossing::Image);
+        for used in uses_of(adapted, step).filter(crossed).filter(|used| used.writes) {
+            adapted.for_each_subresource(used, |index: SubresourceIndex| writers[index as usize] = Some(at));
+        }
+        for used in uses_of(adapted, step).filter(crossed) {
             let resource: PhysicalIndex = used.resource;
             adapted.for_each_subresource(used, |index: SubresourceIndex| {
                 let subresource = &mut subresources[index as usize];
+                if !used.writes && writers[index as usize] == Some(at) && subresource.written != Some(at) {
+                    return;
+                }
                 if used.writes {
                     *subresource = LastUse { layout: used.layout, written: Some(at), change: None };
                 } else if used.layout != subresource.layout {

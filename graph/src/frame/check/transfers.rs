@@ -2,7 +2,7 @@
 
 use super::{CheckContext, Place, Property};
 use crate::base::{Code, Diagnostic, Span};
-use crate::frame::{Buffer, BufferIndex, Image, ImageIndex, Pass, Resource, TransferUse, Work};
+use crate::frame::{Buffer, BufferIndex, Draw, Image, ImageIndex, Pass, Resource, TransferUse, Work};
 use crate::vulkan::{Aspects, Filter, Shape, Subresources};
 
 /// Reports what is wrong with the transfers of a pass. The parts that it names lie within their images.
@@ -23,7 +23,11 @@ pub(crate) fn check(checked: &impl CheckContext, pass: &Pass, errors: &mut Vec<D
             }
         }
         (Work::Fill { .. }, _) => check.wrong(Code::PASS_PARTS, pass.span, "it fills one image or buffer"),
-        (Work::Custom { .. }, _) => {}
+        (Work::Custom { .. }, transfers) => check.one_part(transfers),
+        (Work::Draw { draw: Draw::Custom, .. }, [used, ..]) => {
+            let drawn = Diagnostic::new(Code::PASS_PARTS, used.span, "nothing is transferred beside targets");
+            check.errors.push(drawn.help("name it in `storage`, or in `uniform`, and say in `uses` how it is used"));
+        }
         (Work::Draw { .. } | Work::Dispatch { .. } | Work::Forward { .. }, transfers) => {
             if !transfers.is_empty() {
                 check.wrong(Code::PASS_PARTS, pass.span, "it transfers and is no copy, blit, fill or custom pass");
@@ -126,6 +130,25 @@ impl<'c, C: CheckContext> Check<'c, C> {
             [Place::PartOfSide(at), Place::Image(side.index, Property::Mips)].map(|place| self.checked.span(place));
         self.errors.push(several_levels(side.image, places, "is copied"));
         None
+    }
+
+    /// What a pass of the program reads and writes is one part of an image, not parts that overlap: it is in one layout.
+    fn one_part(&mut self, transfers: &[TransferUse]) {
+        for written in transfers.iter().filter(|used| used.write) {
+            let Resource::Image(index) = written.resource else { continue };
+            let Some(image) = self.checked.image(index).filter(|image| image.samples == 1) else { continue };
+            let overlaps = |read: &&TransferUse| {
+                !read.write
+                    && (read.resource, read.frames_ago) == (written.resource, written.frames_ago)
+                    && image.part(read.range) != image.part(written.range)
+                    && image.overlap(read.range, written.range)
+            };
+            if let Some(read) = transfers.iter().find(overlaps) {
+                let message = format!("it reads and writes parts of `{}` that overlap and aren't the same", image.name);
+                let wrong = Diagnostic::new(Code::PASS_PARTS, written.span, message).label(read.span, "read here");
+                self.errors.push(wrong.help("name the same parts in `reads` and `writes`, one by one"));
+            }
+        }
     }
 
     fn copy(&mut self, sides: [&TransferUse; 2]) {

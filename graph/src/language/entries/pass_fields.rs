@@ -60,9 +60,10 @@ fields! {
         pub(crate) alpha_to_coverage: Option<Leaf<'src>> => Form::Truth,
         /// `true`: promises that it sets every texel of its targets, where that [isn't proven](#what-a-pass-leaves-untouched).
         pub(crate) covers: Option<Leaf<'src>> => Form::Truth,
-        /// Images and buffers, or parts of them, that it reads by transfer.
+        /// Images and buffers, or parts of them, that it reads by transfer. Beside targets, name them in `storage` or `uniform`.
         pub(crate) reads: Option<Leaf<'src>> => transfer::TRANSFERRED,
-        /// Images and buffers, or parts of them, that it writes by transfer; all of each is written.
+        /// Images and buffers, or parts of them, that it writes by transfer; all of each is written, unless it is in `reads` too. Beside targets,
+        /// name them in `storage`.
         pub(crate) writes: Option<Leaf<'src>> => transfer::TRANSFERRED,
         /// How the program's commands use what the pass names, for what is to be [waited for less](#declared-uses) than by all commands.
         pub(crate) uses: Option<Leaf<'src>> => declared_uses::USES,
