@@ -9,7 +9,7 @@ use framewright_graph::plan::{
     Placement, Plan, Role, StepId, Work,
 };
 use framewright_graph::shader::{
-    Attribute, BINDINGS, DrawInterface, DrawKind, ShaderInterfaces, SuppliedKind, SuppliedResource, VertexBuffer,
+    Attribute, BINDINGS, DrawInterface, DrawKind, SuppliedKind, SuppliedResource, VertexBuffer,
 };
 use framewright_graph::vulkan::{
     Filter, Format, Layout, ResolveMode, Sampler, Shape, Sharing, Subresources, Usage, name_of,
