@@ -18,7 +18,7 @@ const EXTENT: [u32; 2] = [8, 8];
 /// Six corners of a square.
 const CORNERS: [[i16; 2]; 6] = [[-1, -1], [1, -1], [-1, 1], [-1, 1], [1, -1], [1, 1]];
 
-const SHADERS: &[(&str, &str)] = &[
+pub(crate) const SHADERS: &[(&str, &str)] = &[
     (
         "many.vert",
         "#version 460

@@ -29,6 +29,7 @@ mod geometry;
 mod growth;
 mod hand_over;
 mod held;
+mod hlsl_vertices;
 mod image_arrays;
 mod imports;
 mod local_reads;

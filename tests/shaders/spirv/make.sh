@@ -19,3 +19,4 @@ glslangValidator -g -D -V --target-env vulkan1.3 -S frag -e PSMain -o discard_te
 glslangValidator -gVS -D -V --target-env vulkan1.3 -S frag -e PSMain -o discard_gvs.spv discard.hlsl
 dxc -spirv -fspv-target-env=vulkan1.3 -T ps_6_0 -E PSMain -Zi -Fo discard_dxc.spv discard.hlsl
 dxc -spirv -fspv-target-env=vulkan1.3 -T ps_6_0 -E PSMain -fspv-debug=vulkan -Fo discard_dxc_set.spv discard.hlsl
+dxc -spirv -fspv-target-env=vulkan1.3 -T vs_6_0 -E VSMain -Fo mesh_dxc.spv mesh.hlsl
