@@ -242,18 +242,6 @@ fn what_a_custom_pass_reads_and_writes_is_one_access() {
 
 #[test]
 fn what_a_custom_pass_cannot_read_and_write_is_refused() {
-    for (fields, words) in [
-        (r#"reads: ["kept"], writes: [(image: "kept", mip: 0)]"#, "parts of `kept` that overlap and aren't the same"),
-        (
-            r#"reads: ["old"], color: [(image: "screen", clear: (0.0, 0.0, 0.0, 1.0))]"#,
-            "nothing is transferred beside targets",
-        ),
-        (
-            r#"writes: ["old"], color: [(image: "screen", clear: (0.0, 0.0, 0.0, 1.0))]"#,
-            "nothing is transferred beside targets",
-        ),
-    ] {
-        let said = refused(&both(fields));
-        assert!(said.iter().any(|said| said.contains(words)), "{fields}: {said:?}");
-    }
+    let said = refused(&both(r#"reads: ["kept"], writes: [(image: "kept", mip: 0)]"#));
+    assert!(said.iter().any(|said| said.contains("parts of `kept` that overlap and aren't the same")), "{said:?}");
 }
