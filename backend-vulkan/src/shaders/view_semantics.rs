@@ -60,9 +60,9 @@ fn blanked(text: &str) -> String {
             (until("\n", 2).unwrap_or(behind.len()), true)
         } else if behind.starts_with("/*") {
             (until("*/", 2).map_or(behind.len(), |at| at + 2), true)
-        } else if behind.starts_with('"') {
+        } else if let Some(literal) = behind.strip_prefix('"') {
             // A literal ends on its line.
-            (behind[1..].find(['"', '\n']).map_or(behind.len(), |at| at + 2), false)
+            (literal.find(['"', '\n']).map_or(behind.len(), |at| at + 2), false)
         } else {
             (1, false)
         };

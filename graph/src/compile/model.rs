@@ -347,18 +347,13 @@ impl Use {
             Role::Color => AccessKind::ColorAttachment.usage(),
             Role::Depth | Role::Stencil => AccessKind::DepthAttachment.usage(),
             Role::Source => AccessKind::TransferSource.usage(),
-            Role::Target if self.reads_by_transfer() => {
+            Role::Target if self.accesses.reads_by_transfer() => {
                 AccessKind::TransferSource.usage() | AccessKind::TransferTarget.usage()
             }
             Role::Target => AccessKind::TransferTarget.usage(),
             Role::Declared => self.accesses.image_usage() | self.layout.usage(),
             Role::Buffer => Usage::empty(),
         }
-    }
-
-    /// Whether a transfer of it reads, if it is the target of one.
-    fn reads_by_transfer(&self) -> bool {
-        self.accesses.contains(Accesses::TRANSFER_READ)
     }
 }
 

@@ -326,6 +326,11 @@ impl State {
 }
 
 impl Accesses {
+    /// Whether a transfer reads.
+    pub(crate) fn reads_by_transfer(self) -> bool {
+        self.contains(Accesses::TRANSFER_READ)
+    }
+
     /// The stages in which one of these can happen; every one, where `MEMORY_READ` or `MEMORY_WRITE` is among them.
     pub(crate) fn stages(self) -> Stages {
         if self.intersects(Accesses::MEMORY) {

@@ -189,7 +189,10 @@ fn written(pass: &Pass) -> impl Iterator<Item = &ImagePart> {
 
 /// Whether a pass works for both eyes at once, if what it uses holds both eyes' parts.
 fn may_be_at_once(pass: &Pass, whose: PassEyes) -> bool {
-    !matches!(pass.work, Work::Custom { .. }) || pass.both_eyes && whose == PassEyes::Each
+    match &pass.work {
+        Work::Custom { .. } => pass.both_eyes && whose == PassEyes::Each,
+        Work::Draw { .. } | Work::Dispatch { .. } | Work::Copy { .. } | Work::Blit { .. } | Work::Fill { .. } => true,
+    }
 }
 
 /// Images that a pass uses otherwise than by sampling and drawing. A pass that may be `at_once` uses whole images by copies and fills for
