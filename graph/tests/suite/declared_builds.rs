@@ -83,7 +83,7 @@ fn do_8_verify_holds_builds_to_barriers_and_usages() {
     // What shaders read is not what a build reads, nor in another stage.
     assert!(caught(&|plan| barriers(plan, |it| {
         if it.dst_accesses.contains(Accesses::SHADER_READ) {
-            it.dst_accesses = it.dst_accesses - Accesses::SHADER_READ | Accesses::SHADER_STORAGE_READ;
+            it.dst_accesses = (it.dst_accesses - Accesses::SHADER_READ) | Accesses::SHADER_STORAGE_READ;
             it.dst_stages |= Stages::COMPUTE_SHADER;
         }
     })));
