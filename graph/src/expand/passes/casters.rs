@@ -22,8 +22,6 @@ struct Casters<'f> {
 /// first of their view, and those that no pass draws.
 pub(in crate::expand) fn agree(resources: &Resources<'_>, states: &[State], errors: &mut Vec<Diagnostic>) {
     let pipeline = resources.pipeline;
-    let sampled = states.iter().flat_map(State::runs).flat_map(|pass| &pass.sampled);
-    let sampled: HashSet<ImageIndex> = sampled.map(|sampled| sampled.image).collect();
     let mut views: BTreeMap<ViewIndex, Vec<Casters<'_>>> = BTreeMap::new();
     for (pass, state) in pipeline.passes.iter().zip(states) {
         if let State::On(lowered) = state
@@ -34,6 +32,11 @@ pub(in crate::expand) fn agree(resources: &Resources<'_>, states: &[State], erro
             views.entry(pass.view).or_default().push(Casters { pass, cascade, target, map });
         }
     }
+    if views.is_empty() {
+        return;
+    }
+    let sampled = states.iter().flat_map(State::runs).flat_map(|pass| &pass.sampled);
+    let sampled: HashSet<ImageIndex> = sampled.map(|sampled| sampled.image).collect();
     for all in views.values() {
         let first = &all[0];
         let first_sampled = all.iter().find(|casters| sampled.contains(&casters.target.image));
