@@ -242,6 +242,13 @@ fn what_a_custom_pass_reads_and_writes_is_one_access() {
 
 #[test]
 fn what_a_custom_pass_cannot_read_and_write_is_refused() {
-    let said = refused(&both(r#"reads: ["kept"], writes: [(image: "kept", mip: 0)]"#));
-    assert!(said.iter().any(|said| said.contains("parts of `kept` that overlap and aren't the same")), "{said:?}");
+    let target = r#"color: [(image: "screen", clear: (0.0, 0.0, 0.0, 1.0))]"#;
+    for (fields, words) in [
+        (r#"reads: ["kept"], writes: [(image: "kept", mip: 0)]"#, "parts of `kept` that overlap and aren't the same"),
+        (&format!(r#"reads: ["old"], {target}"#), "nothing is transferred beside targets"),
+        (&format!(r#"writes: ["old"], {target}"#), "nothing is transferred beside targets"),
+    ] {
+        let said = refused(&both(fields));
+        assert!(said.iter().any(|said| said.contains(words)), "{fields}: {said:?}");
+    }
 }
