@@ -25,7 +25,7 @@ impl DrawSource for GuardedSource<'_> {
     }
 
     fn has_secondary(&mut self, callback: &str) -> bool {
-        // Whoever asks for a pass guards the question: an answer has no room for an error.
+        // A panic goes on to the function `has_secondary` below, which knows the pass and makes an error of it.
         self.0.has_secondary(callback)
     }
 

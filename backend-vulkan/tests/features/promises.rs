@@ -253,8 +253,8 @@ fn do_8_what_nobody_waited_for_is_told_by_the_next_executor() {
     });
 }
 
-/// What is told of the four frames in which a pass runs that is to set all of an image and a buffer, and sets so many rows of the one and
-/// words of the other. It runs in one of `every` frames.
+/// A pass declares that it sets all of an image and a buffer. It sets this many rows of the image, and words of the buffer. It runs in one
+/// of `every` frames. Returns what is told of the first four frames in which it runs.
 fn told_of_parts(device: &Device, [rows, words]: [u32; 2], every: u32) -> Vec<String> {
     let mut small = Small::default();
     let [mask, held, shown] = ["mask", "held", "shown"].map(|name| small.image(name, Format::R32_UINT, [4, 2]));
