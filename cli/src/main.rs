@@ -8,7 +8,6 @@ mod error;
 mod error_code;
 mod files;
 mod findings;
-mod inspection;
 mod measure;
 mod planning;
 mod serving;

@@ -5,7 +5,6 @@ use crate::command_line::values::{self, Assignment};
 use crate::error::Error;
 use crate::files::inputs;
 use crate::files::outputs;
-use crate::inspection::{self, Page, ShownPlan};
 use crate::planning::{self, plan_file};
 use crate::system::{Exit, text};
 use framewright_graph::base::{ReadFiles, Sources};
@@ -43,7 +42,7 @@ pub(crate) fn diff(arguments: &DiffArguments) -> Result<Exit, Error> {
                 ShownPlan { name: name_a, plan: &a, detail, sources: sources_a.as_deref() },
                 ShownPlan { name: name_b, plan: &b, detail, sources: sources_b.as_deref() },
             ];
-            inspection::page(&Page { plans, differences: Some(&differences), devices: &[], captures: &[] })?
+            framewright_viewer::page(&Page { plans, differences: Some(&differences), devices: &[], captures: &[] })?
         }
     };
     match &arguments.output {

@@ -5,7 +5,6 @@ use crate::drawing::captures::{self, Drawing};
 use crate::error::Error;
 use crate::files::inputs::{self, FileRole};
 use crate::files::outputs;
-use crate::inspection::{self, MOST_NODES, Page, ShownPlan, Thumbnail};
 use crate::planning::{self, device, helper, plan_file};
 use crate::system::{Exit, interrupt, text};
 use framewright_graph::base::ReadFiles;
@@ -66,7 +65,7 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
         };
         let detail = Detail { verbose: true, ..detail };
         let shown = ShownPlan { name: name.into_owned(), plan, detail, sources: Some(&pipeline.sources) };
-        Ok(inspection::page(&Page { plans: vec![shown], differences: None, devices: &devices, captures: &captures })?)
+        Ok(framewright_viewer::page(&Page { plans: vec![shown], differences: None, devices: &devices, captures: &captures })?)
     })?;
     put(arguments, &shown, &read)
 }
@@ -85,7 +84,7 @@ fn inspect_plan(arguments: &InspectArguments, read: &ReadFiles) -> Result<Exit, 
         let detail = Detail { verbose: true, ..detail };
         let shown =
             ShownPlan { name: pipeline.file.to_string_lossy().into_owned(), plan: &plan, detail, sources: None };
-        Ok(inspection::page(&Page { plans: vec![shown], differences: None, devices: &[], captures: &[] })?)
+        Ok(framewright_viewer::page(&Page { plans: vec![shown], differences: None, devices: &[], captures: &[] })?)
     })?;
     put(arguments, &shown, read)
 }
@@ -100,13 +99,13 @@ fn shown(
     Ok(match format {
         PlanFormat::Tree => text::escape_lines(&plan.outline(detail).draw()) + "\n",
         PlanFormat::Json => text::json_text(&plan.to_json()?),
-        PlanFormat::Dot => inspection::dot(plan, &Dataflow::of(plan)),
+        PlanFormat::Dot => framewright_viewer::dot(plan, &Dataflow::of(plan)),
         PlanFormat::Mermaid => {
-            let (shown, beyond) = inspection::mermaid(plan, &Dataflow::of(plan));
+            let (shown, beyond) = framewright_viewer::mermaid(plan, &Dataflow::of(plan));
             beyond.iter().for_each(|limit| text::say(&format!("note: {limit}")));
             shown
         }
-        PlanFormat::Svg => inspection::svg(plan, &laid_out(plan)?),
+        PlanFormat::Svg => framewright_viewer::svg(plan, &laid_out(plan)?),
         PlanFormat::Html => page()?,
     })
 }

@@ -3,13 +3,12 @@
 use crate::command_line::serving::ServeArguments;
 use crate::error::Error;
 use crate::files::inputs;
-use crate::inspection;
 use crate::planning::{device, helper};
-use crate::serving::{self, Session};
+use crate::serving::Session;
 use crate::system::{Exit, interrupt, text};
-use std::sync::mpsc::{self, RecvTimeoutError};
+use framewright_viewer::Server;
+use std::sync::mpsc::RecvTimeoutError;
 use std::time::Duration;
-use tokio::sync::watch;
 
 /// Files are looked at this often.
 const EVERY: Duration = Duration::from_millis(100);
@@ -26,19 +25,19 @@ pub(crate) fn serve(arguments: &ServeArguments) -> Result<Exit, Error> {
     interrupt::watch();
     let helper = helper::of(&arguments.pipeline)?;
     let choice = device::to_draw_on(arguments.device.name.as_deref())?;
-    let (publish, shown) = watch::channel(serving::PublishedState::default());
-    let (send, choices) = mpsc::channel();
-    let address = serving::start(arguments.port, inspection::live_page()?, shown, send)?;
+    let port = arguments.port;
+    let server = Server::start(port).map_err(|source| Error::Port { port, source })?;
+    let (address, choices) = (server.address(), server.choices());
     let device = device::open(choice, false, &helper)?;
     let mut session = Session::new(arguments, &device, helper);
     text::print(&format!("http://{address}/ shows the page; Ctrl-C ends it\n")).map_err(Error::Print)?;
     loop {
-        publish.send_replace(session.published(true)?);
+        server.publish(session.published(true)?);
         match session.draw() {
             Err(_) if interrupt::asked() => return Ok(Exit::Fine),
             other => other?,
         }
-        publish.send_replace(session.published(false)?);
+        server.publish(session.published(false)?);
         loop {
             if interrupt::asked() {
                 return Ok(Exit::Fine);

@@ -4,7 +4,6 @@
 //! the frames are drawn anew for each.
 
 use crate::error::Error;
-use crate::inspection::Thumbnail;
 use crate::system::{interrupt, text};
 use framewright::{Pipeline, SceneRenderer};
 use framewright_graph::compile::Options;
@@ -15,6 +14,7 @@ use framewright_graph::vulkan::{Aspects, Format};
 use framewright_lab::outputs::side_by_side;
 use framewright_lab::picture::{FileFormat, Picture};
 use framewright_passes::scene::Scene;
+use framewright_viewer::Thumbnail;
 use framewright_vulkan::{Device, ExecutorOptions, Texels};
 use std::collections::HashSet;
 

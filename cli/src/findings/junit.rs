@@ -2,7 +2,7 @@
 
 use super::finding::{Case, FilePlace};
 use crate::system::text;
-use crate::system::xml::escaped;
+use framewright_viewer::escape_xml as escaped;
 use std::fmt::Write;
 
 pub(super) fn junit(pipeline: &str, cases: &[Case]) -> String {

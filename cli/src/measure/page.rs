@@ -1,6 +1,6 @@
 //! Results as one HTML page, which needs nothing but the pictures beside it.
 
-use crate::system::html::{self, Template};
+use framewright_viewer::html::{self, Template};
 use framewright_lab::results::{Outcome, Results, Row};
 use serde::Serialize;
 

@@ -1,6 +1,6 @@
 //! A plot of time against FLIP with the Pareto front, as SVG.
 
-use crate::system::xml::escaped;
+use framewright_viewer::escape_xml as escaped;
 use framewright_lab::choosing;
 use framewright_lab::results::{Group, Outcome, Results};
 use std::collections::BTreeMap;

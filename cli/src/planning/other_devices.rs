@@ -2,12 +2,12 @@
 
 use super::device;
 use crate::error::Error;
-use crate::inspection::{DeviceDifferences, MOST_NODES};
 use framewright::{Choices, Pipeline};
 use framewright_graph::compile::Options;
 use framewright_graph::device::MemoryEstimate;
 use framewright_graph::difference::Differences;
 use framewright_graph::plan::Plan;
+use framewright_viewer::{DeviceDifferences, MOST_NODES};
 
 /// The differences that every other shipped profile makes to a Plan of the pipeline, which has a name for people.
 ///

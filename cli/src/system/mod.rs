@@ -2,12 +2,10 @@
 
 pub(crate) mod counted_work;
 mod exit;
-pub(crate) mod html;
 pub(crate) mod interrupt;
 pub(crate) mod links;
 pub(crate) mod platform;
 pub(crate) mod progress;
 pub(crate) mod text;
-pub(crate) mod xml;
 
 pub(crate) use exit::Exit;

@@ -1,0 +1,45 @@
+//! Pages of one file: a template with its style, its script and its data.
+//!
+//! Data is JSON that the script reads. The script makes elements and sets their text: nothing from a file becomes HTML. A
+//! content-security policy names the style and the script by their digests, so that nothing else can act.
+
+use base64::Engine;
+use base64::prelude::BASE64_STANDARD;
+use serde::Serialize;
+use sha2::{Digest, Sha256};
+
+/// The parts of a page.
+pub struct Template<'t> {
+    /// The page, with `/*policy*/`, `/*style*/`, `/*script*/` and `/*data*/` where those belong.
+    pub page: &'t str,
+    /// The style.
+    pub style: &'t str,
+    /// The script.
+    pub script: &'t str,
+    /// Where images may come from, as the policy writes it.
+    pub images: &'t str,
+    /// Where the script may ask for more, as the policy writes it.
+    pub asked: &'t str,
+}
+
+/// The page around `data`.
+///
+/// # Errors
+/// If the data has no JSON form.
+pub fn page(template: &Template<'_>, data: &impl Serialize) -> serde_json::Result<String> {
+    // A text that ends the element can't be in it.
+    let data = serde_json::to_string(data)?.replace('<', "\\u003c");
+    let digest = |text: &str| BASE64_STANDARD.encode(Sha256::digest(text.as_bytes()));
+    let policy = format!(
+        "default-src 'none'; script-src 'sha256-{}'; style-src 'sha256-{}'; img-src {}; connect-src {}; base-uri 'none'; \
+         form-action 'none'",
+        digest(template.script),
+        digest(template.style),
+        template.images,
+        template.asked
+    );
+    let parts =
+        [("/*policy*/", &*policy), ("/*style*/", template.style), ("/*script*/", template.script), ("/*data*/", &data)];
+    // The data comes last: it may hold anything.
+    Ok(parts.into_iter().fold(template.page.to_owned(), |page, (mark, part)| page.replacen(mark, part, 1)))
+}

@@ -1,0 +1,20 @@
+//! What a Plan looks like: as a graph in DOT, Mermaid or SVG, as a page to explore, and as a page that a server keeps up to date.
+//!
+//! ```text
+//! Plan ─► dataflow ─► graph ─► DOT, Mermaid, SVG
+//!                       └────► page ─► a file, or the server's answers
+//! ```
+
+mod graph;
+pub mod html;
+mod page;
+mod server;
+mod xml;
+
+pub use graph::{dot, mermaid, svg};
+pub use page::{DeviceDifferences, Page, ShownPlan, Thumbnail, live_page, page, page_data};
+pub use server::{Choice, Controls, LiveState, Output, PublishedState, Server, SourceText};
+pub use xml::escaped as escape_xml;
+
+/// A graph of more nodes than this isn't laid out: nobody could read the picture, and a browser could hardly hold it.
+pub const MOST_NODES: usize = 3000;

@@ -1,0 +1,176 @@
+//! The server of the page: on this machine's loopback address alone, and for pages of its own alone.
+//!
+//! | address | answer |
+//! |---|---|
+//! | `GET /` | the page |
+//! | `GET /state/N` | the state, as soon as its number is another one than N; 204 if that takes long |
+//! | `GET /state/SERVER/N` | the same; at once, if N is a number of another server |
+//! | `GET /picture/…` | a picture of the last good frame |
+//! | `POST /choose` | takes a [`Choice`] as JSON |
+
+use super::controls::Choice;
+use super::published_state::PublishedState;
+use crate::page;
+use axum::body::Bytes;
+use axum::extract::{DefaultBodyLimit, Path, Request, State};
+use axum::http::header::{
+    CACHE_CONTROL, CONTENT_SECURITY_POLICY, CONTENT_TYPE, HOST, HeaderName, HeaderValue, ORIGIN, REFERRER_POLICY,
+    X_CONTENT_TYPE_OPTIONS,
+};
+use axum::http::{Method, StatusCode};
+use axum::middleware::{Next, from_fn_with_state};
+use axum::response::{IntoResponse, Response};
+use axum::routing::{get, post};
+use axum::{Router, serve};
+use std::io;
+use std::net::{Ipv4Addr, SocketAddr, TcpListener};
+use std::sync::mpsc;
+use std::time::Duration;
+use tokio::sync::watch::{self, Receiver, Sender};
+use tokio::time::timeout;
+
+/// A question for the state is answered after this time at the latest.
+const LONGEST_WAIT: Duration = Duration::from_secs(25);
+/// A choice has at most this many bytes.
+const LARGEST_CHOICE: usize = 64 << 10;
+
+/// What answers are made of.
+#[derive(Clone)]
+struct ServerState {
+    address: SocketAddr,
+    page: Bytes,
+    shown: Receiver<PublishedState>,
+    choices: mpsc::Sender<Choice>,
+}
+
+/// A server of the live page, on a thread of its own, as long as the program runs.
+#[derive(Debug)]
+pub struct Server {
+    address: SocketAddr,
+    publish: Sender<PublishedState>,
+    choices: mpsc::Receiver<Choice>,
+}
+
+impl Server {
+    /// One at this port of the loopback address; 0: at a port that is free. It has no state yet.
+    ///
+    /// # Errors
+    /// If the port can't be had.
+    pub fn start(port: u16) -> io::Result<Server> {
+        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port))?;
+        listener.set_nonblocking(true)?;
+        let address = listener.local_addr()?;
+        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
+        let (publish, shown) = watch::channel(PublishedState::default());
+        let (send, choices) = mpsc::channel();
+        let page = page::live_page()?.into();
+        let routes = routes(ServerState { address, page, shown, choices: send });
+        let listener = {
+            let _entered = runtime.enter();
+            tokio::net::TcpListener::from_std(listener)?
+        };
+        std::thread::spawn(move || {
+            // It only ends with the program.
+            drop(runtime.block_on(async { serve(listener, routes).await }));
+        });
+        Ok(Server { address, publish, choices })
+    }
+
+    /// Where it answers.
+    #[must_use]
+    pub fn address(&self) -> SocketAddr {
+        self.address
+    }
+
+    /// Shows `state` to all browsers, in place of the one before.
+    pub fn publish(&self, state: PublishedState) {
+        self.publish.send_replace(state);
+    }
+
+    /// What people chose in the page, in the order in which they did.
+    #[must_use]
+    pub fn choices(&self) -> &mpsc::Receiver<Choice> {
+        &self.choices
+    }
+}
+
+fn routes(shared: ServerState) -> Router {
+    Router::new()
+        .route("/", get(whole_page))
+        .route("/state/{after}", get(|shared, Path(after): Path<u64>| state(shared, None, after)))
+        .route(
+            "/state/{server}/{after}",
+            get(|shared, Path((server, after)): Path<(String, u64)>| state(shared, Some(server), after)),
+        )
+        .route("/picture/{*name}", get(picture))
+        .route("/choose", post(choose))
+        // Browsers ask for an icon, and complain where there is no answer.
+        .route("/favicon.ico", get(StatusCode::NO_CONTENT))
+        .layer(DefaultBodyLimit::max(LARGEST_CHOICE))
+        .layer(from_fn_with_state(shared.clone(), own_pages_alone))
+        .with_state(shared)
+}
+
+/// Refuses requests of other sites' pages, by whatever name they reach this address; and forbids browsers to keep or frame answers.
+async fn own_pages_alone(State(shared): State<ServerState>, request: Request, next: Next) -> Response {
+    let headers = request.headers();
+    let port = shared.address.port();
+    // Browsers leave out the port that HTTP has anyway.
+    let end = if port == 80 { String::new() } else { format!(":{port}") };
+    let own = ["127.0.0.1", "localhost"].map(|name| format!("{name}{end}"));
+    let is_own = |host: &str| own.iter().any(|own| own == host);
+    let text = |name: HeaderName| headers.get(name).map(|value| value.to_str().unwrap_or_default());
+    let host = text(HOST).is_some_and(is_own);
+    let origin = text(ORIGIN).is_none_or(|origin| origin.strip_prefix("http://").is_some_and(is_own));
+    let form = request.method() != Method::POST || text(CONTENT_TYPE) == Some("application/json");
+    let mut answer = match host && origin && form {
+        true => next.run(request).await,
+        false => (StatusCode::FORBIDDEN, "only pages of this server are answered").into_response(),
+    };
+    let same_origin = HeaderName::from_static("cross-origin-resource-policy");
+    for (name, value) in [
+        (CACHE_CONTROL, "no-store"),
+        (CONTENT_SECURITY_POLICY, "frame-ancestors 'none'"),
+        (REFERRER_POLICY, "no-referrer"),
+        (X_CONTENT_TYPE_OPTIONS, "nosniff"),
+        (same_origin, "same-origin"),
+    ] {
+        answer.headers_mut().insert(name, HeaderValue::from_static(value));
+    }
+    answer
+}
+
+async fn whole_page(State(shared): State<ServerState>) -> impl IntoResponse {
+    ([(CONTENT_TYPE, "text/html; charset=utf-8")], shared.page)
+}
+
+async fn state(State(mut shared): State<ServerState>, server: Option<String>, after: u64) -> Response {
+    // A browser that outlived a server at the same address knows numbers of that one.
+    let newer = shared.shown.wait_for(|shown| {
+        let is_own = server.as_ref().is_none_or(|server| **server == *shown.server);
+        shown.version != if is_own { after } else { 0 }
+    });
+    match timeout(LONGEST_WAIT, newer).await {
+        Ok(Ok(shown)) => ([(CONTENT_TYPE, "application/json")], shown.json.to_string()).into_response(),
+        Ok(Err(_)) => StatusCode::SERVICE_UNAVAILABLE.into_response(),
+        Err(_) => StatusCode::NO_CONTENT.into_response(),
+    }
+}
+
+async fn picture(State(shared): State<ServerState>, Path(name): Path<String>) -> Response {
+    let picture = shared.shown.borrow().pictures.get(&name).cloned();
+    match picture {
+        Some(png) => ([(CONTENT_TYPE, "image/png")], Bytes::from_owner(png)).into_response(),
+        None => StatusCode::NOT_FOUND.into_response(),
+    }
+}
+
+async fn choose(State(shared): State<ServerState>, body: Bytes) -> Response {
+    match serde_json::from_slice(&body) {
+        Ok(choice) => match shared.choices.send(choice) {
+            Ok(()) => StatusCode::NO_CONTENT.into_response(),
+            Err(_) => StatusCode::SERVICE_UNAVAILABLE.into_response(),
+        },
+        Err(problem) => (StatusCode::BAD_REQUEST, format!("no choice: {problem}")).into_response(),
+    }
+}

@@ -1,0 +1,65 @@
+//! What browsers are told: the state of the page, numbered, and its pictures.
+
+use super::controls::Controls;
+use serde::Serialize;
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// A state of the page. The server counts them; before the first one the number is 0.
+#[derive(Debug, Clone, Default)]
+pub struct PublishedState {
+    pub version: u64,
+    /// The server that numbers them.
+    pub server: Arc<str>,
+    /// The state as JSON: `live` is a [`LiveState`], `page` the data of the page of the last good frame, or null.
+    pub json: Arc<str>,
+    /// PNG files of the last good frame, by their addresses.
+    pub pictures: Arc<BTreeMap<String, Arc<[u8]>>>,
+}
+
+/// The part of a state that changes even where the last good frame stays.
+#[derive(Debug, Serialize)]
+pub struct LiveState<'a> {
+    pub format_version: u32,
+    /// What tells this server from earlier ones of the same address.
+    pub server: &'a str,
+    pub version: u64,
+    /// The number of the last good frame: as long as it stays, `page` does.
+    pub frame: u64,
+    /// Whether a frame is being drawn.
+    pub busy: bool,
+    /// The mistakes that keep a newer frame from being drawn, as `check --format json` has them.
+    pub mistakes: &'a Value,
+    /// The same as `check` prints them; empty if there is none.
+    pub message: &'a str,
+    /// The texts that the mistakes point into.
+    pub sources: &'a [SourceText],
+    #[serde(flatten)]
+    pub controls: &'a Controls,
+    /// The settings and the preset that were chosen in the page.
+    pub chosen: &'a BTreeMap<String, String>,
+    pub preset: Option<&'a str>,
+    /// The outputs of the last good frame.
+    pub outputs: &'a [Output],
+    /// What the last good frame took, in words.
+    pub took: &'a str,
+}
+
+/// A picture of an output.
+#[derive(Debug, Serialize)]
+pub struct Output {
+    pub name: String,
+    /// The address of its picture.
+    pub picture: String,
+}
+
+/// A file of the pipeline.
+#[derive(Debug, Serialize)]
+pub struct SourceText {
+    /// Its path, counted from the pipeline's folder.
+    pub name: String,
+    /// Its name in mistakes.
+    pub shown: String,
+    pub text: String,
+}
