@@ -2,6 +2,7 @@
 function showDetails() {
   const panel = document.querySelector("#details > div");
   panel.replaceChildren();
+  panel.parentElement.classList.toggle("empty", !state.selected && !state.unknown && models.every((model) => model.plan));
   if (!state.selected) {
     if (state.unknown) panel.append(element("p", { role: "status" }, "The address asks for ", element("code", {}, state.unknown), ", which isn't here."));
     panel.append(element("p", { class: "faint" }, "Select a pass, an image or a step to see why it is there, what it needs and what it costs."));
@@ -29,6 +30,22 @@ function usesOf(model, node) {
   }));
 }
 
+/** The captured pictures that `wanted` picks, small ones in a row. */
+function picturesFor(title, wanted) {
+  const found = DATA.captures.filter(wanted);
+  if (found.length === 0) return null;
+  return [heading(title), element("div", { class: "strip small-pictures" }, found.map((capture) => figure(models[0], capture)))];
+}
+
+/** What a pass's images held before it, and hold after it. */
+function picturesOfPass(model, node) {
+  const order = new Map(model.nodes.map((one, at) => [one.name, at]));
+  const images = node.uses.filter((use) => "image" in use.resource).map((use) => ({ name: model.resourceOf(use.resource).name, ...use }));
+  const last = (image) => DATA.captures.findLast((capture) => capture.image === image && order.get(capture.pass) < node.at_index);
+  const before = new Set(images.filter((use) => use.reads).map((use) => last(use.name)).filter(Boolean));
+  return [picturesFor("Before it", (capture) => before.has(capture)), picturesFor("After it", (capture) => capture.pass === node.name)];
+}
+
 function aboutPass(model, { node }) {
   const step = model.byKey.get(model.stepKey(node.step));
   const name = (at) => link(model.nodes[at].key, model.nodes[at].name);
@@ -41,6 +58,7 @@ function aboutPass(model, { node }) {
   const resolves = folded ? (step.step && (model.lines.get(model.stepKey(node.step)) || []).flatMap(({ line }) => [line, ...line.parts]).filter((line) => (line.kind === "resolve" || line.kind === "step" && node.kind === "resolve") && line.at === node.at)) : [];
   return [element("h2", {}, node.name), element("p", {}, node.kind.replace("_", " ") + " in ", link(model.stepKey(node.step), "step " + node.step), " ", placeLink(model, node.at)),
     node.because ? [heading("Why it is there"), element("p", { class: "because" }, withLinks(node.because))] : null,
+    picturesOfPass(model, node),
     lines.length > 0 ? [heading("In the Plan"), outlineList(model, lines)] : null,
     resolves.length > 0 ? [heading("In the Plan"), outlineList(model, resolves)] : null,
     heading("Uses"), usesOf(model, node),
@@ -107,7 +125,7 @@ function aboutResource(model, { image, buffer }) {
     return { ...line, text: `step ${above[1].about.step}${where}: ${line.text}` };
   };
   const barriers = lines.filter(({ line }) => line.kind === "barrier").map(inStep);
-  return [element("h2", {}, one.name), outlineList(model, own),
+  return [element("h2", {}, one.name), outlineList(model, own), picturesFor("Pictures", (capture) => capture.image === one.name),
     heading("Used by"), list(users.map((node) => {
       const uses = node.uses.filter((use) => model.resourceKey(use.resource) === key);
       const how = uses.some((use) => use.reads) ? (uses.some((use) => use.writes) ? "reads and writes" : "reads") : "writes";

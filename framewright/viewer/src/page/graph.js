@@ -169,22 +169,22 @@ function drawnBox(model, box, [x, y], unfold) {
   const choose = (key) => () => select(key, { reveal: false });
   const frame = { x, y, width: box.width, height: box.height, rx: box.kind === "beside" ? 18 : 6 };
   if (box.kind === "beside") {
-    made.append(shape("g", { class: "beside", "data-key": box.key, onclick: choose(box.key) }, shape("title", {}, box.title + ", " + box.about), shape("rect", frame),
+    made.append(shape("g", { class: "beside", ...picks(box.key) }, shape("title", {}, box.title + ", " + box.about), shape("rect", frame),
       shape("text", { class: "middle", x: x + box.width / 2, y: y + 16 }, inMiddle(box.title, 30))));
     return made;
   }
   const open = box.kind === "fragment" ? () => unfold(box.fragment) : choose(box.key);
-  made.append(shape("rect", { class: "frame", ...frame, "data-key": box.key ?? box.nodes.map((node) => node.key).join("\u0001"), onclick: open }),
+  made.append(shape("rect", { class: "frame", ...frame, ...picks(box.key ?? box.nodes.map((node) => node.key).join("\u0001"), open) }, shape("title", {}, box.kind === "fragment" ? "unfold " + box.fragment : box.title)),
     shape("text", { class: "title", x: x + 8, y: y + 16, onclick: open }, box.kind === "fragment" ? "▸ " + inMiddle(box.title, 34) : box.title),
     shape("text", { class: "end small", x: x + box.width - 8, y: y + 16, onclick: open }, [box.about, box.ms === null ? null : milliseconds(box.ms)].filter(Boolean).join(" · ")));
   let top = y + ROW + 4;
   for (const node of box.rows) {
-    made.append(shape("g", { class: node.kind, "data-key": node.key, onclick: choose(node.key) }, shape("title", {}, node.name + (node.because ? "\n" + node.because : "")),
+    made.append(shape("g", { class: node.kind, ...picks(node.key) }, shape("title", {}, node.name + (node.because ? "\n" + node.because : "")),
       shape("rect", { x: x + 4, y: top, width: box.width - 8, height: ROW - 2, rx: 4 }), shape("text", { x: x + 10, y: top + 13 }, inMiddle(node.name, 48))));
     top += ROW;
   }
   for (const { key, text, about } of box.list) {
-    made.append(shape("rect", { class: "under", x: x + 4, y: top, width: box.width - 8, height: ROW - 2, "data-key": key, onclick: choose(key) }, shape("title", {}, text + ", " + about)),
+    made.append(shape("rect", { class: "under", x: x + 4, y: top, width: box.width - 8, height: ROW - 2, ...picks(key) }, shape("title", {}, text + ", " + about)),
       shape("text", { class: "small", x: x + 10, y: top + 13, "data-key": key, onclick: choose(key) }, inMiddle(text, 28)),
       shape("text", { class: "end small", x: x + box.width - 10, y: top + 13, "pointer-events": "none" }, about));
     top += ROW;

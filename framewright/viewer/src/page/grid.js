@@ -1,76 +1,132 @@
 /** The grid: work from left to right, images and buffers from top to bottom, and a mark where one uses the other. */
 const CELL = 22;
-const NAMES = 210;
+const NAMES = 230;
+const SUMS = 96;
 const HEADS = 150;
-function gridView(model) {
-  if (!model.plan) return tooLarge(model);
+/** What a row may be, for the filter. */
+const ROW_KINDS = [["all", "all"], ["related", "related to the selection"], ["attachment", "attachments"], ["sampled", "sampled images"], ["storage", "storage"], ["kept", "what outlives the frame"]];
+
+/** The columns: work, then what was left out. */
+function gridColumns(model) {
   const columns = model.nodes.map((node) => ({ node, key: node.key, title: node.name }));
   model.plan.notes.forEach((note, at) => {
     if (note.kind === "unneeded") columns.push({ key: "note:" + model.letter + at, title: note.subject, culled: note.text });
   });
-  const used = new Map();
+  return columns;
+}
+
+/** The rows: images and buffers, each with its marks by column, its roles, and the bytes that it moves in all. */
+function gridRows(model) {
+  const rows = new Map();
   model.nodes.forEach((node, at) => node.uses.forEach((use) => {
     const key = model.resourceKey(use.resource);
-    if (!used.has(key)) used.set(key, { key, resource: model.resourceOf(use.resource), first: at, last: at, marks: new Map() });
-    const row = used.get(key);
+    if (!rows.has(key)) rows.set(key, { key, resource: model.resourceOf(use.resource), first: at, last: at, marks: new Map(), roles: new Set(), moved: 0 });
+    const row = rows.get(key);
     row.last = at;
-    const mark = row.marks.get(at) || { reads: false, writes: false, roles: new Set() };
+    const mark = row.marks.get(at) || { reads: false, writes: false, roles: new Set(), about: attachmentOf(model, node, use.resource) };
     mark.reads ||= use.reads;
     mark.writes ||= use.writes;
     mark.roles.add(use.role.replace("_", " "));
+    row.roles.add(use.role);
     row.marks.set(at, mark);
   }));
-  const rows = [...used.values()];
-  const x = (column) => NAMES + column * CELL;
+  for (const each of model.movedEach) for (const [resource, moved] of each) if (rows.has(model.resourceKey(resource))) rows.get(model.resourceKey(resource)).moved += movedSum(moved);
+  return [...rows.values()];
+}
+
+/** What a pass's step does with an image around the pass: whether it waits at a barrier, loads, stores and resolves it. */
+function attachmentOf(model, node, resource) {
+  const step = model.plan.steps[node.step];
+  const nodes = model.byKey.get(model.stepKey(node.step)).nodes;
+  const uses = nodes.filter((one) => one.uses.some((use) => JSON.stringify(use.resource) === JSON.stringify(resource)));
+  const attachment = "image" in resource && step.work.render ? step.work.render.attachments.find((one) => one.image === resource.image) : null;
+  return {
+    barrier: uses[0] === node && "image" in resource && step.image_barriers.some((barrier) => barrier.image === resource.image),
+    loads: uses[0] === node && attachment?.load === "LOAD",
+    stores: uses.at(-1) === node && attachment?.store === "STORE",
+  };
+}
+
+const isOfKind = (row, kind) => ({
+  all: true,
+  related: state.selected === null || row.key === state.selected || relatedKeys().has(row.key),
+  attachment: ["color", "depth", "resolve", "stencil"].some((role) => row.roles.has(role)),
+  sampled: row.roles.has("sampled"),
+  storage: row.roles.has("storage") || row.roles.has("buffer"),
+  kept: !row.resource.role.transient,
+})[kind];
+
+function gridView(model) {
+  if (!model.plan) return tooLarge(model);
+  const columns = gridColumns(model);
+  const all = gridRows(model);
+  let kind = "all";
+  let rows = all;
+  const x = (column) => NAMES + SUMS + column * CELL;
   const y = (row) => HEADS + row * CELL;
-  const extent = [x(columns.length) + 12, y(rows.length) + 12];
-  const box = scroller(extent, "Passes and images of " + model.name, (svg, left, top, width, height) => {
+  const extent = () => [x(columns.length) + 12, y(rows.length) + 12];
+  const box = scroller(extent(), "Passes and images of " + model.name, (svg, left, top, width, height) => {
     svg.setAttribute("viewBox", [0, 0, width, height].join(" "));
     const from = [Math.max(0, Math.floor(left / CELL)), Math.max(0, Math.floor(top / CELL))];
-    const to = [Math.min(columns.length, Math.ceil((left + width - NAMES) / CELL) + 1), Math.min(rows.length, Math.ceil((top + height - HEADS) / CELL) + 1)];
+    const to = [Math.min(columns.length, Math.ceil((left + width - NAMES - SUMS) / CELL) + 1), Math.min(rows.length, Math.ceil((top + height - HEADS) / CELL) + 1)];
     const body = shape("g", { transform: `translate(${-left} ${-top})` });
     const heads = shape("g", { transform: `translate(${-left} 0)` });
     const names = shape("g", { transform: `translate(0 ${-top})` });
-    for (let column = from[0]; column < to[0]; column += 1) {
-      const { node, key, title, culled } = columns[column];
-      const begins = node && (column === 0 || columns[column - 1].node?.step !== node.step);
-      if (node && node.step % 2 === 0) body.append(shape("rect", { class: "stripe", x: x(column), y: HEADS, width: CELL, height: rows.length * CELL }));
-      if (begins) heads.append(shape("text", { class: "small", x: x(column) + 2, y: 10, "data-key": model.stepKey(node.step), onclick: () => select(model.stepKey(node.step), { reveal: false }) }, node.step));
-      heads.append(shape("g", { class: (node ? node.kind : "") + (culled ? " culled" : ""), "data-key": key, onclick: () => select(key, { reveal: false }) },
-        shape("title", {}, culled ? title + ": " + culled : title),
-        shape("rect", { x: x(column) + 1, y: 14, width: CELL - 2, height: HEADS - 16, rx: 3, fill: "none" }),
-        shape("text", { transform: `translate(${x(column) + 15} ${HEADS - 6}) rotate(-90)` }, inMiddle(title, 20))));
-    }
-    for (let row = from[1]; row < to[1]; row += 1) {
-      const { key, resource, first, last, marks } = rows[row];
-      const lives = resource.role.transient;
-      const choose = () => select(key, { reveal: false });
-      body.append(shape("rect", { class: lives ? "life" : "outside", x: lives ? x(first) : NAMES, y: y(row) + 4, width: (lives ? last - first + 1 : columns.length) * CELL, height: CELL - 8, rx: 4 }));
-      names.append(shape("g", { "data-key": key, onclick: choose }, shape("title", {}, resource.name), shape("rect", { x: 0, y: y(row), width: NAMES - 4, height: CELL, fill: "none" }),
-        shape("text", { class: "end", x: NAMES - 8, y: y(row) + 15 }, inMiddle(resource.name, 28))));
-      for (const [at, mark] of marks) {
-        if (at < from[0] || at >= to[0]) continue;
-        const how = mark.reads && mark.writes ? "both" : mark.writes ? "writes" : "reads";
-        body.append(shape("g", { class: "mark", "data-key": key + "\u0001" + columns[at].key, onclick: choose },
-          shape("title", {}, `${columns[at].title}: ${resource.name}, ${how === "both" ? "reads and writes" : how} (${[...mark.roles].join(", ")})`),
-          shape("rect", { class: how, x: x(at) + 3, y: y(row) + 3, width: CELL - 6, height: CELL - 6, rx: how === "reads" ? 8 : 2 }),
-          shape("text", { class: "glyph", x: x(at) + CELL / 2, y: y(row) + 15 }, { reads: "R", writes: "W", both: "B" }[how])));
-      }
-    }
+    for (let column = from[0]; column < to[0]; column += 1) drawColumn(model, columns, column, x(column), rows.length, body, heads);
+    for (let row = from[1]; row < to[1]; row += 1) drawRow(rows[row], columns, [from[0], to[0]], x, y(row), body, names);
     const cover = (attributes) => shape("rect", { fill: "var(--ground)", ...attributes });
-    svg.append(body, cover({ x: 0, y: 0, width, height: HEADS }), heads, cover({ x: 0, y: 0, width: NAMES, height }), names, cover({ x: 0, y: 0, width: NAMES, height: HEADS }),
-      shape("text", { class: "small", x: 8, y: 14 }, "step"), shape("text", { class: "small", x: 8, y: HEADS - 8 }, count(rows.length, "image or buffer", "images and buffers")));
+    svg.append(body, cover({ x: 0, y: 0, width, height: HEADS }), heads, cover({ x: 0, y: 0, width: NAMES + SUMS, height }), names, cover({ x: 0, y: 0, width: NAMES + SUMS, height: HEADS }),
+      shape("text", { class: "small end", x: NAMES + SUMS - 8, y: 10 }, "step"), shape("text", { class: "small", x: 8, y: HEADS - 8 }, count(rows.length, "image or buffer", "images and buffers")),
+      shape("text", { class: "small end", x: NAMES + SUMS - 8, y: HEADS - 8 }, "moved"));
   });
+  const filtered = () => {
+    rows = all.filter((row) => isOfKind(row, kind));
+    box.resize(extent());
+  };
   box.reveal = (wanted) => {
+    if (kind === "related") filtered();
     const column = columns.findIndex((one) => one.key === wanted);
     const row = rows.findIndex((one) => one.key === wanted);
-    if (column >= 0) box.show(column * CELL, box.scrollTop, CELL + NAMES, 1);
+    if (column >= 0) box.show(column * CELL, box.scrollTop, CELL + NAMES + SUMS, 1);
     if (row >= 0) box.show(box.scrollLeft, row * CELL, 1, CELL + HEADS);
   };
-  const legend = element("p", { class: "hint" }, "R reads · W writes · B reads and writes, or draws over what is there · a bar is the lifetime of transient memory, "
-    + "a faint one the whole frame · columns of one step have one shade · grey columns were left out: nothing needs them");
-  const group = element("div", {}, legend, box);
+  const choice = element("label", {}, "Rows: ", element("select", { onchange: (event) => { kind = event.target.value; filtered(); } }, ROW_KINDS.map(([value, words]) => element("option", { value }, words))));
+  const legend = element("p", { class: "tools" }, choice, element("span", { class: "hint" }, "R reads · W writes · B reads and writes · red edge: barrier before · dot above: loaded · dot below: stored · bar: lifetime, faint if it outlives the frame · grey: left out, nothing needs it"));
+  const group = element("div", { class: "fills" }, legend, box);
   group.redraw = box.redraw;
   group.reveal = box.reveal;
   return group;
+}
+
+function drawColumn(model, columns, column, left, rows, body, heads) {
+  const { node, key, title, culled } = columns[column];
+  const begins = node && (column === 0 || columns[column - 1].node?.step !== node.step);
+  if (node && node.step % 2 === 0) body.append(shape("rect", { class: "stripe", x: left, y: HEADS, width: CELL, height: rows * CELL }));
+  if (begins) heads.append(shape("text", { class: "small", x: left + 2, y: 10, "data-key": model.stepKey(node.step), onclick: () => select(model.stepKey(node.step), { reveal: false }) }, node.step));
+  heads.append(shape("g", { class: (node ? node.kind : "") + (culled ? " culled" : ""), ...picks(key) },
+    shape("title", {}, culled ? title + ": " + culled : title),
+    shape("rect", { x: left + 1, y: 14, width: CELL - 2, height: HEADS - 16, rx: 3, fill: "none" }),
+    shape("text", { transform: `translate(${left + 15} ${HEADS - 6}) rotate(-90)` }, inMiddle(title, 19))));
+}
+
+function drawRow({ key, resource, first, last, marks, moved }, columns, [from, to], x, top, body, names) {
+  const lives = resource.role.transient;
+  const choose = () => select(key, { reveal: false });
+  body.append(shape("rect", { class: lives ? "life" : "outside", x: x(lives ? first : 0), y: top + 4, width: (lives ? last - first + 1 : columns.length) * CELL, height: CELL - 8, rx: 4 }));
+  names.append(shape("g", picks(key), shape("title", {}, resource.name + ", " + sizeOf(resource)), shape("rect", { x: 0, y: top, width: NAMES - 4, height: CELL, fill: "none" }),
+    shape("text", { class: "end", x: NAMES - 8, y: top + 15 }, inMiddle(resource.name, 30))),
+  shape("text", { class: "small end", x: NAMES + SUMS - 8, y: top + 15 }, moved > 0 ? bytes(moved) : ""));
+  for (const [at, mark] of marks) {
+    if (at < from || at >= to) continue;
+    const how = mark.reads && mark.writes ? "both" : mark.writes ? "writes" : "reads";
+    const { barrier, loads, stores } = mark.about;
+    const more = [barrier ? "after a barrier" : null, loads ? "loaded" : null, stores ? "stored" : null].filter(Boolean).map((word) => ", " + word).join("");
+    body.append(shape("g", { class: "mark", "data-key": key + "\u0001" + columns[at].key, onclick: choose },
+      shape("title", {}, `${columns[at].title}: ${resource.name}, ${how === "both" ? "reads and writes" : how} (${[...mark.roles].join(", ")})${more}`),
+      shape("rect", { class: how, x: x(at) + 3, y: top + 3, width: CELL - 6, height: CELL - 6, rx: how === "reads" ? 8 : 2 }),
+      barrier ? shape("path", { class: "barrier", d: `M${x(at) + 1} ${top + 2}v${CELL - 4}` }) : null,
+      loads ? shape("circle", { class: "dot", cx: x(at) + CELL - 4, cy: top + 4, r: 2.5 }) : null,
+      stores ? shape("circle", { class: "dot", cx: x(at) + CELL - 4, cy: top + CELL - 4, r: 2.5 }) : null,
+      shape("text", { class: "glyph", x: x(at) + CELL / 2, y: top + 15 }, { reads: "R", writes: "W", both: "B" }[how])));
+  }
 }

@@ -6,6 +6,7 @@ function viewsOf(data) {
   return [
     data.live ? alone("live", "Live", liveView) : null,
     data.differences ? alone("differences", "Differences", comparedView) : null,
+    { name: "overview", title: "Overview", make: overviewView },
     { name: "graph", title: "Graph", make: graphView },
     { name: "timeline", title: "Timeline", make: timelineView },
     { name: "grid", title: "Passes × images", make: gridView },
@@ -25,7 +26,7 @@ function makeView(view) {
   const shown = view.once ? [models[0] ?? null] : models;
   view.parts = shown.map((model) => view.make(model));
   view.made = element("div", { class: "plans" }, shown.map((model, at) => element("section", { "aria-label": model ? view.title + " of " + model.name : view.title },
-    models.length > 1 && !view.once ? element("h2", {}, model.letter.toUpperCase() + ": " + model.name) : null, view.parts[at])));
+    models.length > 1 && !view.once ? element("h2", {}, model.letter.toUpperCase() + ": " + (DATA.differences ? sideWords(DATA.differences[model.letter], DATA.differences["ba"[model.index]]) : model.name)) : null, view.parts[at])));
   view.panel.append(view.made);
   view.reveal = (key) => view.parts.forEach((part) => part.reveal?.(key));
 }
@@ -95,12 +96,21 @@ function keyPressed(event) {
     if (event.key === "Enter") {
       const [first] = find(input.value);
       if (first) select(first);
+    } else if (event.key === "ArrowDown") {
+      event.preventDefault();
+      document.querySelector("#found button")?.focus();
     }
+  } else if (event.target.closest?.("#found")) {
+    const way = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+    if (!way) return;
+    event.preventDefault();
+    const all = [...document.querySelectorAll("#found button")];
+    (all[all.indexOf(event.target) + way] ?? (way < 0 ? input : null))?.focus();
   } else if (event.key === "/") {
     event.preventDefault();
     input.focus();
   } else if (event.key === "ArrowRight" || event.key === "ArrowLeft") {
-    if (event.target.closest?.(".scroller, select, .controls input")) return;
+    if (event.target.closest?.(".scroller, .canvas, select, .controls input")) return;
     event.preventDefault();
     const by = event.key === "ArrowRight" ? 1 : -1;
     if (event.target.closest?.("#tabs")) {
@@ -118,15 +128,14 @@ function keyPressed(event) {
 
 /** Shows Plans in place of those that are shown. The view, the selection and the places in lists stay. */
 function showData(data) {
-  const places = [...document.querySelectorAll("main, .view-panel:not([hidden]) .scroller")].map((box) => [box.scrollLeft, box.scrollTop]);
+  const places = models.length === 0 ? [] : [...document.querySelectorAll("main, .view-panel:not([hidden]) .scroller")].map((box) => [box.scrollLeft, box.scrollTop]);
   DATA = data;
   models = data.plans.map((plan, index) => new Model(plan, index));
   VIEWS = viewsOf(data);
   document.title = models.map((model) => model.name).join(" | ");
-  const names = models.map((model) => model.name + (model.plan ? " on " + model.plan.device.name : ""));
+  const names = data.differences ? [sideWords(data.differences.a, data.differences.b), sideWords(data.differences.b, data.differences.a)]
+    : models.map((model) => model.name + (model.plan ? " on " + model.plan.device.name : ""));
   document.getElementById("title").replaceChildren(visible(names.join("  |  ")));
-  const totals = models.map((model) => model.outline.parts.find((line) => line.kind === "total")?.parts.map((line) => line.text).join("; ") ?? "");
-  document.getElementById("totals").replaceChildren(...totals.map((text, at) => element("span", { class: "faint" }, (models.length > 1 ? models[at].letter.toUpperCase() + ": " : "") + text + " ")));
   for (const view of VIEWS) {
     view.tab = element("button", { type: "button", role: "tab", id: "tab-" + view.name, "aria-controls": "view-" + view.name, onclick: () => { showView(view.name); writeHash(); } }, view.title);
     view.panel = element("div", { role: "tabpanel", id: "view-" + view.name, class: "view-panel", "aria-labelledby": "tab-" + view.name, hidden: true });
@@ -141,7 +150,7 @@ function start() {
   document.getElementById("find").addEventListener("input", (event) => find(event.target.value));
   document.addEventListener("click", (event) => { if (!event.target.closest(".find") || event.target.closest("#found")) document.getElementById("found").hidden = true; });
   document.addEventListener("keydown", keyPressed);
-  addEventListener("hashchange", readHash);
+  addEventListener("popstate", readHash);
   addEventListener("beforeprint", () => { printing = true; VIEWS.forEach((view) => { makeView(view); view.parts.forEach((part) => part.redraw?.()); }); });
   addEventListener("afterprint", () => { printing = false; showView(state.view); });
   showData(DATA);

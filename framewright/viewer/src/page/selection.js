@@ -44,7 +44,8 @@ function writeHash() {
     parts.push(state.selected.slice(0, at) + "=" + encodeURIComponent(state.selected.slice(at + 1)));
   }
   const hash = "#" + parts.join("&");
-  if (location.hash !== hash) history.replaceState(null, "", hash);
+  // The first address of a page is replaced: Back leads out of it at once. Others are steps back.
+  if (location.hash !== hash) history[location.hash === "" ? "replaceState" : "pushState"](null, "", hash);
 }
 
 function readHash() {
@@ -63,6 +64,17 @@ function readHash() {
   showView(isView ? view : state.view || VIEWS[0].name);
   select(key, { record: false });
 }
+
+/** What makes a shape select `key`: by the pointer, and by Tab and Enter. */
+const picks = (key, act = () => select(key, { reveal: false })) => ({
+  "data-key": key, tabindex: 0, role: "button", onclick: act,
+  onkeydown: (event) => {
+    if (event.key !== "Enter" && event.key !== " ") return;
+    event.preventDefault();
+    event.stopPropagation();
+    act();
+  },
+});
 
 /** A button that selects. */
 function link(key, text) {

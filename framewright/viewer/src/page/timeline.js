@@ -51,7 +51,7 @@ function timelineView(model) {
     rows.forEach((row, at) => {
       const rowY = aliveEnd + at * IMAGE_ROW;
       if (rowY + IMAGE_ROW < top || rowY > top + height) return;
-      names.append(shape("text", { class: "end", x: NAME_ROOM - 10, y: rowY + 13, "data-key": row.key, onclick: () => select(row.key, { reveal: false }) }, shape("title", {}, nameOf(row.key)), inMiddle(nameOf(row.key), 26)));
+      names.append(shape("text", { class: "end", x: NAME_ROOM - 10, y: rowY + 13, ...picks(row.key) }, shape("title", {}, nameOf(row.key)), inMiddle(nameOf(row.key), 26)));
       moving.append(...imageRow(model, row, rowY, x, seen));
     });
     if (pointed !== null) moving.append(shape("path", { class: "cross", d: `M${pointed} 0V${extent()[1]}` }));
@@ -111,7 +111,7 @@ function stepBox(model, at, [left, top, width]) {
   const kind = typeof step.work === "string" ? "beside" : { render: "draw" }[Object.keys(step.work)[0]] ?? Object.keys(step.work)[0];
   const nodes = model.byKey.get(key).nodes;
   const barriers = step.image_barriers.length + step.memory_barriers.length;
-  return shape("g", { class: kind, "data-key": key, onclick: () => select(key, { reveal: false }) },
+  return shape("g", { class: kind, ...picks(key) },
     shape("title", {}, stepWords(model, at)),
     shape("rect", { x: left + 1, y: top + 4, width: Math.max(2, width - 2), height: LANE_HEIGHT - 14, rx: 3 }),
     barriers > 0 ? shape("path", { class: "barrier", d: `M${left + 1} ${top + 4}v${LANE_HEIGHT - 14}` }, shape("title", {}, count(barriers, "barrier", "barriers") + " before step " + at)) : null,
