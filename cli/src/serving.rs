@@ -13,7 +13,9 @@ use framewright_graph::plan::Detail;
 use framewright_lab::outputs;
 use framewright_lab::picture::FileFormat;
 use framewright_passes::scene::{Scene, SceneError};
-use framewright_viewer::{Choice, Controls, LiveState, Output, Page, PublishedState, ShownPlan, SourceText, Thumbnail};
+use framewright_viewer::{
+    Choice, Controls, LastFrames, LiveState, Output, Page, PublishedState, ShownPlan, SourceText, Thumbnail, Times,
+};
 use framewright_vulkan::{Device, ExecutorOptions, Helper};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -254,7 +256,8 @@ fn drawn(
         format!("picture/{version}/{name}")
     };
     let mut outputs = Vec::new();
-    for (name, png) in output_pictures(arguments, device, scene, pipeline, &planned)? {
+    let drawn = draw_frames(arguments, device, scene, pipeline, &planned)?;
+    for (name, png) in drawn.pictures {
         let picture = kept(format!("{}.png", outputs.len()), png);
         outputs.push(Output { name, picture });
     }
@@ -267,12 +270,12 @@ fn drawn(
             Ok(())
         })?;
     }
-    let plan = &planned.plan;
+    let (plan, times) = (&planned.plan, drawn.times);
     let name = arguments.pipeline.file.to_string_lossy();
     let devices = planning::on_other_devices(pipeline, choices, &options, (&*name, plan))?;
     let objects = |list: DrawList| scene.count(list);
     let detail = Detail { objects: Some(&objects), verbose: true };
-    let shown = ShownPlan { name: name.into_owned(), plan, detail, sources: Some(&pipeline.sources) };
+    let shown = ShownPlan { name: name.into_owned(), plan, detail, sources: Some(&pipeline.sources), times: times.as_ref() };
     let page = Page { plans: vec![shown], differences: None, devices: &devices, captures: &thumbnails };
     Ok(GoodFrame {
         version,
@@ -284,28 +287,37 @@ fn drawn(
     })
 }
 
-/// Draws the frames, and encodes every output of the last.
-fn output_pictures(
+/// What was drawn for the page.
+struct DrawnFrames {
+    /// Every output of the last frame: its name, and its picture as a PNG file.
+    pictures: Vec<(String, Vec<u8>)>,
+    times: Option<Times>,
+}
+
+/// Draws the frames.
+fn draw_frames(
     arguments: &ServeArguments,
     device: &Device,
     scene: &Scene,
     pipeline: &mut Pipeline,
     planned: &PlannedFrame,
-) -> Result<Vec<(String, Vec<u8>)>, Error> {
-    let options = ExecutorOptions { poison: arguments.planning.poison, ..ExecutorOptions::default() };
+) -> Result<DrawnFrames, Error> {
+    let poison = arguments.planning.poison;
+    let options = ExecutorOptions { poison, timestamps: true, ..ExecutorOptions::default() };
+    let mut last = LastFrames::default();
     let mut prepared = SceneRenderer::new(device, planned.parts(), &mut pipeline.assets, scene, &options)?;
     for drawn in 0..arguments.frames {
         if interrupt::asked() {
             return Err(Error::Interrupted { frames: drawn, wanted: arguments.frames });
         }
-        prepared.draw()?;
+        last.add(prepared.draw()?);
     }
     let requests = outputs::of_all_outputs(&planned.plan);
     let encoded = requests.iter().map(|request| {
         let picture = request.encode(&mut prepared.executor, &planned.plan, &text::note_once)?;
         Ok((request.name.to_owned(), picture.contents))
     });
-    encoded.collect()
+    Ok(DrawnFrames { pictures: encoded.collect::<Result<_, Error>>()?, times: last.times() })
 }
 
 impl SessionMistakes {

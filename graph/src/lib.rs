@@ -12,6 +12,7 @@ pub mod difference;
 pub mod expand;
 pub mod expression;
 pub mod frame;
+pub mod hints;
 pub mod language;
 pub mod plan;
 pub mod ron;

@@ -39,8 +39,8 @@ pub(crate) fn diff(arguments: &DiffArguments) -> Result<Exit, Error> {
         DifferenceFormat::Html => {
             let detail = Detail { verbose: true, ..Detail::default() };
             let plans = vec![
-                ShownPlan { name: name_a, plan: &a, detail, sources: sources_a.as_deref() },
-                ShownPlan { name: name_b, plan: &b, detail, sources: sources_b.as_deref() },
+                ShownPlan { name: name_a, plan: &a, detail, sources: sources_a.as_deref(), times: None },
+                ShownPlan { name: name_b, plan: &b, detail, sources: sources_b.as_deref(), times: None },
             ];
             framewright_viewer::page(&Page { plans, differences: Some(&differences), devices: &[], captures: &[] })?
         }

@@ -2,18 +2,20 @@
 //!
 //! ```text
 //! Plan ─► dataflow ─► graph ─► DOT, Mermaid, SVG
-//!                       └────► page ─► a file, or the server's answers
+//!            └──────► page ─► a file, or the server's answers
 //! ```
 
 mod graph;
 pub mod html;
 mod page;
 mod server;
+mod times;
 mod xml;
 
 pub use graph::{dot, mermaid, svg};
 pub use page::{DeviceDifferences, Page, ShownPlan, Thumbnail, live_page, page, page_data};
 pub use server::{Choice, Controls, LiveState, Output, PublishedState, Server, SourceText};
+pub use times::{LastFrames, Spread, StepTimes, Times};
 pub use xml::escaped as escape_xml;
 
 /// A graph of more nodes than this isn't laid out: nobody could read the picture, and a browser could hardly hold it.

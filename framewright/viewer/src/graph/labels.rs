@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// A graph's vertex: a node of the dataflow, or an image or buffer beside the frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Vertex {
+pub(super) enum Vertex {
     /// The image or buffer as it was before the frame.
     Before(Resource),
     /// A node, by its index.
@@ -17,17 +17,17 @@ pub(crate) enum Vertex {
 }
 
 /// A graph of labelled vertices and edges.
-pub(crate) struct Graph<'a> {
+pub(super) struct Graph<'a> {
     plan: &'a Plan,
     flow: &'a Dataflow,
     /// Vertices: those before the frame, nodes in their order, those after it.
-    pub(crate) vertices: Vec<Vertex>,
+    pub(super) vertices: Vec<Vertex>,
     /// Edges between indices of vertices, with the images and buffers whose contents go along it.
-    pub(crate) edges: BTreeMap<(usize, usize), Vec<Resource>>,
+    pub(super) edges: BTreeMap<(usize, usize), Vec<Resource>>,
 }
 
 impl<'a> Graph<'a> {
-    pub(crate) fn of(plan: &'a Plan, flow: &'a Dataflow) -> Graph<'a> {
+    pub(super) fn of(plan: &'a Plan, flow: &'a Dataflow) -> Graph<'a> {
         let ends = |edge: &Edge| {
             let from = edge.from.map_or(Vertex::Before(edge.resource), Vertex::Node);
             [from, edge.to.map_or(Vertex::After(edge.resource), Vertex::Node)]
@@ -44,7 +44,7 @@ impl<'a> Graph<'a> {
         Graph { plan, flow, vertices, edges }
     }
 
-    pub(crate) fn node(&self, vertex: Vertex) -> Option<&'a Node> {
+    pub(super) fn node(&self, vertex: Vertex) -> Option<&'a Node> {
         match vertex {
             Vertex::Node(node) => self.flow.nodes.get(node as usize),
             Vertex::Before(_) | Vertex::After(_) => None,
@@ -52,7 +52,7 @@ impl<'a> Graph<'a> {
     }
 
     /// The name of a vertex. Escaped for a terminal.
-    pub(crate) fn name(&self, vertex: Vertex) -> String {
+    pub(super) fn name(&self, vertex: Vertex) -> String {
         match vertex {
             Vertex::Before(resource) | Vertex::After(resource) => self.resource(resource),
             Vertex::Node(node) => escape(&self.flow.nodes[node as usize].name),
@@ -60,7 +60,7 @@ impl<'a> Graph<'a> {
     }
 
     /// The word under the name: the kind of work, or when the contents are there.
-    pub(crate) fn kind(&self, vertex: Vertex) -> &'static str {
+    pub(super) fn kind(&self, vertex: Vertex) -> &'static str {
         match vertex {
             Vertex::Before(_) => "from before the frame",
             Vertex::After(_) => "after the frame",
@@ -69,7 +69,7 @@ impl<'a> Graph<'a> {
     }
 
     /// The names of what goes along an edge.
-    pub(crate) fn along(&self, resources: &[Resource]) -> String {
+    pub(super) fn along(&self, resources: &[Resource]) -> String {
         resources.iter().map(|resource| self.resource(*resource)).collect::<Vec<_>>().join(", ")
     }
 

@@ -5,35 +5,34 @@
 
 use super::labels::Graph;
 use rust_sugiyama::configure::{Config, CrossingMinimization, RankingType};
-use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// Height of a vertex in pixels.
-pub(crate) const HEIGHT: f64 = 40.0;
+pub(super) const HEIGHT: f64 = 40.0;
 /// Distance between vertices of a layer, and between layers.
 const SPACING: f64 = 36.0;
 /// Width of a letter, about.
 const LETTER: f64 = 7.2;
 /// A vertex has room for this many letters.
-pub(crate) const LETTERS: usize = 32;
+pub(super) const LETTERS: usize = 32;
 /// Letters that a vertex has beside its kind: the number of its step.
 const STEP: usize = 9;
 /// The most bends, counted for each vertex: edges that are left without any run straight.
 const MOST_BENDS: usize = 12;
 
 /// Places in pixels, x to the right and y downwards.
-#[derive(Debug, Clone, Serialize)]
-pub(crate) struct Layout {
+#[derive(Debug, Clone)]
+pub(super) struct Layout {
     /// Middle and width of each vertex.
-    pub(crate) places: Vec<[f64; 3]>,
+    pub(super) places: Vec<[f64; 3]>,
     /// The points of each edge, from the foot of its first vertex to the head of its second.
-    pub(crate) ways: Vec<Vec<[f64; 2]>>,
+    pub(super) ways: Vec<Vec<[f64; 2]>>,
     /// Width and height of all.
-    pub(crate) extent: [f64; 2],
+    pub(super) extent: [f64; 2],
 }
 
 /// Lays out a graph. The same graph has the same layout.
-pub(crate) fn layout(graph: &Graph<'_>) -> Layout {
+pub(super) fn layout(graph: &Graph<'_>) -> Layout {
     let widths: Vec<f64> = graph
         .vertices
         .iter()

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! Plan ─► dataflow ─► labels ─► dot, mermaid
-//!                        └────► layout ─► svg, page
+//!                        └────► layout ─► svg
 //! ```
 
 mod dot;
@@ -14,7 +14,5 @@ mod mermaid;
 mod svg;
 
 pub use dot::dot;
-pub(crate) use labels::{Graph, Vertex};
-pub(crate) use layout::{Layout, layout};
 pub use mermaid::mermaid;
 pub use svg::svg;

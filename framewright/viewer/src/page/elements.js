@@ -54,6 +54,9 @@ function inMiddle(text, letters) {
 /** A time with three digits. */
 const milliseconds = (ms) => (ms >= 100 ? ms.toFixed(0) : ms >= 10 ? ms.toFixed(1) : ms.toFixed(2)) + " ms";
 
+/** A time with how far it spreads. */
+const spreadWords = ({ median, low, high }, frames) => milliseconds(median) + (frames > 1 ? ` (${milliseconds(low)} to ${milliseconds(high)} in ${frames} frames)` : " in one frame");
+
 /** The name in a key, behind its kind. */
 const nameOf = (key) => key.slice(key.indexOf(":") + 1);
 

@@ -34,7 +34,8 @@ function costView(model) {
       return made;
     });
     const names = model.byKey.get(model.stepKey(at)).nodes.map((node) => node.name).join(", ");
-    return [[link(model.stepKey(at), "step " + at), at], inMiddle(names || "barriers alone", 60), [bar, movedSum(moved)], ...[...kinds.map((kind) => moved[kind]), movedSum(moved), ...(stays > 0 ? [model.onChip[at]] : [])].map((amount) => [bytes(amount), amount])];
+    return [[link(model.stepKey(at), "step " + at), at], inMiddle(names || "barriers alone", 60), [bar, movedSum(moved)], ...[...kinds.map((kind) => moved[kind]), movedSum(moved), ...(stays > 0 ? [model.onChip[at]] : [])].map((amount) => [bytes(amount), amount]),
+      ...(model.timed() ? [[milliseconds(model.msOfStep(at)), model.msOfStep(at)]] : [])];
   });
   return element("div", {},
     element("p", {}, `The frame moves ${bytes(all.reduce((sum, one) => sum + one, 0))}: ` + kinds.map((kind, at) => bytes(all[at]) + " " + kind).join(", ")
@@ -42,7 +43,7 @@ function costView(model) {
     stays > 0 ? element("p", { class: "stays" }, `The device draws in tiles, and keeps ${bytes(stays)} on the chip: `,
       [...images].map((image, at) => [at > 0 ? ", " : "", link("image:" + model.plan.images[image].name, model.plan.images[image].name)]),
       images.size === 1 ? " is neither loaded nor stored." : " are neither loaded nor stored.") : null,
-    table([["step"], ["work"], ["moved", "number"], ...kinds.map((kind) => [kind, "number"]), ["sum", "number"], ...(stays > 0 ? [["on the chip", "number"]] : [])], rows, model.moved.map((_, at) => model.stepKey(at))));
+    table([["step"], ["work"], ["moved", "number"], ...kinds.map((kind) => [kind, "number"]), ["sum", "number"], ...(stays > 0 ? [["on the chip", "number"]] : []), ...(model.timed() ? [["median", "number"]] : [])], rows, model.moved.map((_, at) => model.stepKey(at))));
 }
 
 /** Images and buffers with their memory. */

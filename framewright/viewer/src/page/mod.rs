@@ -6,11 +6,12 @@ mod thumbnail;
 pub use thumbnail::Thumbnail;
 
 use crate::MOST_NODES;
-use crate::graph::{Graph, Layout, Vertex, layout};
 use crate::html::{self, Template};
+use crate::times::Times;
 use framewright_graph::base::Sources;
 use framewright_graph::dataflow::{Dataflow, Edge, Node};
 use framewright_graph::difference::Differences;
+use framewright_graph::hints::{Hint, hints};
 use framewright_graph::plan::{Detail, ImageId, MovedBytes, Outline, Plan, Resource, Step};
 use serde::Serialize;
 
@@ -64,6 +65,8 @@ pub struct ShownPlan<'a> {
     pub detail: Detail<'a>,
     /// The files that it was made from; `None`: it was read from a file itself.
     pub sources: Option<&'a Sources>,
+    /// How long its last frames took; `None`: nobody measured it.
+    pub times: Option<&'a Times>,
 }
 
 /// The differences that another device makes.
@@ -91,6 +94,8 @@ struct PlanData<'a> {
     name: &'a str,
     sources: Vec<SourceText<'a>>,
     outline: Outline,
+    hints: Vec<Hint>,
+    times: Option<&'a Times>,
     #[serde(flatten)]
     body: Body<'a>,
 }
@@ -106,36 +111,9 @@ enum Body<'a> {
         edges: Vec<Edge>,
         moved: Vec<Vec<(Resource, MovedBytes)>>,
         on_chip: Vec<Vec<(ImageId, u64)>>,
-        graph: GraphDrawing,
     },
     /// Nothing but the outline, which is shortened: the Plan is too large to be looked at node by node.
     Summary { steps: usize, most: usize },
-}
-
-/// The graph with its layout.
-#[derive(Serialize)]
-struct GraphDrawing {
-    vertices: Vec<DrawnVertex>,
-    edges: Vec<DrawnEdge>,
-    #[serde(flatten)]
-    layout: Layout,
-}
-
-#[derive(Serialize)]
-struct DrawnVertex {
-    /// Index of the node; `None`: contents beside the frame.
-    node: Option<u32>,
-    /// The image or buffer, for contents beside the frame.
-    resource: Option<Resource>,
-    name: String,
-    kind: &'static str,
-}
-
-#[derive(Serialize)]
-struct DrawnEdge {
-    from: usize,
-    to: usize,
-    resources: Vec<Resource>,
 }
 
 #[derive(Serialize)]
@@ -176,7 +154,7 @@ fn data<'a>(page: &'a Page<'a>) -> Data<'a> {
 }
 
 fn plan_data<'a>(shown: &'a ShownPlan<'a>) -> PlanData<'a> {
-    let ShownPlan { name, plan, detail, sources } = shown;
+    let ShownPlan { name, plan, detail, sources, times } = shown;
     let flow = Dataflow::of(plan);
     let outline = plan.outline(*detail);
     let files = sources.iter().flat_map(|sources| (0..).map_while(|file| sources.file(file)));
@@ -184,6 +162,8 @@ fn plan_data<'a>(shown: &'a ShownPlan<'a>) -> PlanData<'a> {
         name,
         sources: files.map(|file| SourceText { name: &file.relative, text: &file.text }).collect(),
         outline,
+        hints: hints(plan),
+        times: *times,
         body: Body::Summary { steps: plan.steps.len(), most: MOST_NODES },
     };
     if flow.nodes.len() > MOST_NODES {
@@ -191,27 +171,9 @@ fn plan_data<'a>(shown: &'a ShownPlan<'a>) -> PlanData<'a> {
         data.sources.clear();
         return data;
     }
-    let graph = Graph::of(plan, &flow);
-    let vertex = |vertex: &Vertex| {
-        let (node, resource) = match *vertex {
-            Vertex::Node(node) => (Some(node), None),
-            Vertex::Before(resource) | Vertex::After(resource) => (None, Some(resource)),
-        };
-        DrawnVertex { node, resource, name: graph.name(*vertex), kind: graph.kind(*vertex) }
-    };
-    let edge = |(&(from, to), resources): (&(usize, usize), &Vec<Resource>)| DrawnEdge {
-        from,
-        to,
-        resources: resources.clone(),
-    };
-    let drawn = GraphDrawing {
-        vertices: graph.vertices.iter().map(vertex).collect(),
-        edges: graph.edges.iter().map(edge).collect(),
-        layout: layout(&graph),
-    };
     let moved = plan.steps.iter().map(|step| moved(plan, step)).collect();
     let on_chip = plan.steps.iter().map(|step| plan.on_chip_of_each(step)).collect();
-    data.body = Body::Whole { plan, nodes: flow.nodes, edges: flow.edges, moved, on_chip, graph: drawn };
+    data.body = Body::Whole { plan, nodes: flow.nodes, edges: flow.edges, moved, on_chip };
     data
 }
 

@@ -12,7 +12,7 @@ class Model {
     this.summary = data.summary || null;
     this.times = data.times ?? null;
     this.hints = data.hints ?? [];
-    const whole = data.whole || { plan: null, nodes: [], edges: [], moved: [], on_chip: [], graph: null };
+    const whole = data.whole || { plan: null, nodes: [], edges: [], moved: [], on_chip: [] };
     Object.assign(this, whole);
     /** What each step moves: image by image, and in all. */
     this.movedEach = this.moved;
@@ -58,6 +58,14 @@ class Model {
 
   /** The device's milliseconds of a step; null: nobody measured them. */
   msOfStep(at) { return this.times?.steps[at]?.median ?? null; }
+
+  /** The times of a pass in words; null: nobody measured them. */
+  timeWords(node) {
+    const step = this.times?.steps[node.step];
+    if (!step) return null;
+    const at = this.byKey.get(this.stepKey(node.step)).nodes.filter((one) => one.kind !== "folded_resolve").indexOf(node);
+    return spreadWords(step.passes[at] ?? step, this.times.frames);
+  }
 
   /** The same of a box of the graph: of its step, or of all steps of its passes. */
   msOf(box) {

@@ -1,0 +1,124 @@
+//! The times of the last frames of a Plan.
+
+use framewright_vulkan::FrameReport;
+use serde::Serialize;
+use std::collections::VecDeque;
+
+/// The reports of the last frames of one Plan: as soon as there are [`LastFrames::MOST`], the oldest makes room.
+#[derive(Debug, Default)]
+pub struct LastFrames {
+    reports: VecDeque<FrameReport>,
+}
+
+/// Times of a Plan, over its last frames, in milliseconds.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Times {
+    /// How many frames they are of.
+    pub frames: usize,
+    /// Of the device, for a frame.
+    pub frame: Spread,
+    /// Of the thread that records a frame.
+    pub recording: Spread,
+    /// Of the device, step by step.
+    pub steps: Vec<StepTimes>,
+}
+
+/// Times of a step.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct StepTimes {
+    #[serde(flatten)]
+    pub step: Spread,
+    /// Those of its passes, in their order. A device that draws in tiles can't tell the passes of one scope apart.
+    pub passes: Vec<Spread>,
+}
+
+/// Milliseconds over several frames.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct Spread {
+    /// The one in the middle.
+    pub median: f64,
+    /// A tenth of the frames took less.
+    pub low: f64,
+    /// A tenth of the frames took more.
+    pub high: f64,
+}
+
+impl LastFrames {
+    /// At most so many frames are kept.
+    pub const MOST: usize = 300;
+
+    /// Keeps the report of a frame.
+    pub fn add(&mut self, report: FrameReport) {
+        if self.reports.len() == LastFrames::MOST {
+            self.reports.pop_front();
+        }
+        self.reports.push_back(report);
+    }
+
+    /// Forgets all: another Plan is drawn from now on.
+    pub fn clear(&mut self) {
+        self.reports.clear();
+    }
+
+    /// Their times; `None` before the first frame, and of a device that measures none.
+    #[must_use]
+    pub fn times(&self) -> Option<Times> {
+        let last = self.reports.back().filter(|report| report.milliseconds > 0.0)?;
+        let over = |value: &dyn Fn(&FrameReport) -> Option<f64>| Spread::of(self.reports.iter().filter_map(value));
+        let step = |(at, step): (usize, &framewright_vulkan::StepReport)| StepTimes {
+            step: over(&|report| Some(report.steps.get(at)?.milliseconds)),
+            passes: (0..step.passes.len())
+                .map(|pass| over(&|report| Some(report.steps.get(at)?.passes.get(pass)?.milliseconds)))
+                .collect(),
+        };
+        Some(Times {
+            frames: self.reports.len(),
+            frame: over(&|report| Some(report.milliseconds)),
+            recording: over(&|report| Some(report.recording_milliseconds)),
+            steps: last.steps.iter().enumerate().map(step).collect(),
+        })
+    }
+}
+
+impl Spread {
+    /// That of `times`; zeros of none.
+    fn of(times: impl Iterator<Item = f64>) -> Spread {
+        let mut sorted: Vec<f64> = times.collect();
+        sorted.sort_by(f64::total_cmp);
+        let at = |share: usize| sorted.get(((sorted.len().max(1) - 1) * share + 5) / 10).copied().unwrap_or_default();
+        Spread { median: at(5), low: at(1), high: at(9) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use framewright_vulkan::StepReport;
+
+    fn frame(milliseconds: f64) -> FrameReport {
+        let step = StepReport { milliseconds: milliseconds / 2.0, ran: true, passes: Vec::new() };
+        FrameReport { milliseconds, recording_milliseconds: 0.25, fragment_invocations: None, steps: vec![step] }
+    }
+
+    #[test]
+    fn lv_2_the_last_frames_have_a_middle_and_tenths() {
+        let mut frames = LastFrames::default();
+        assert_eq!(frames.times(), None);
+        (1..=400).for_each(|at| frames.add(frame(f64::from(at))));
+        let times = frames.times().expect("there are frames");
+        // Of 101 to 400.
+        assert_eq!((times.frames, times.frame), (300, Spread { median: 251.0, low: 131.0, high: 370.0 }));
+        assert_eq!(times.steps[0].step, Spread { median: 125.5, low: 65.5, high: 185.0 });
+        assert_eq!(times.recording, Spread { median: 0.25, low: 0.25, high: 0.25 });
+        frames.clear();
+        frames.add(frame(3.0));
+        assert_eq!(frames.times().expect("one").frame, Spread { median: 3.0, low: 3.0, high: 3.0 });
+    }
+
+    #[test]
+    fn a_device_without_timestamps_has_no_times() {
+        let mut frames = LastFrames::default();
+        frames.add(frame(0.0));
+        assert_eq!(frames.times(), None);
+    }
+}
