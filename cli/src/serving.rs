@@ -175,6 +175,7 @@ impl<'a> Session<'a> {
             preset: self.preset.as_deref(),
             outputs: &self.good.outputs,
             took: &self.good.took,
+            times: None,
         };
         let live = serde_json::to_string(&live)?;
         let page = self.good.page.as_deref().unwrap_or("null");

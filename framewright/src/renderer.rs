@@ -4,7 +4,7 @@ use crate::choices::Choices;
 use crate::error::Error;
 use crate::options::RendererOptions;
 use crate::pipeline::{Origin, Pipeline};
-use framewright_graph::base::ReadFiles;
+use framewright_graph::base::{ReadFiles, Sources};
 use framewright_graph::compile::Compiler;
 use framewright_graph::device::Profile;
 use framewright_graph::frame::Stereo;
@@ -38,6 +38,8 @@ pub struct Renderer {
     drawn: Option<DrawnPlan>,
     /// Whether anything changed since it was planned.
     changed: bool,
+    /// How often it was planned.
+    plans: u64,
 }
 
 /// What was chosen.
@@ -117,6 +119,7 @@ impl Renderer {
             sets: BTreeMap::new(),
             drawn: None,
             changed: true,
+            plans: 0,
         })
     }
 
@@ -256,7 +259,7 @@ impl Renderer {
 
     /// Plans, and has an executor of the Plan; a new one if `anew`.
     fn renew(&mut self, anew: bool) -> Result<Change, Error> {
-        let Renderer { device, profile, options, pipeline, chosen, compiler, sets, drawn, .. } = self;
+        let Renderer { device, profile, options, pipeline, chosen, compiler, sets, drawn, plans, .. } = self;
         let choices = chosen.of(&pipeline.document);
         let plan = pipeline.plan(compiler, device, profile, &choices, &options.compile)?;
         let stays = |drawn: &&mut DrawnPlan| !anew && drawn.executor.differs_beyond_values(plan).is_none();
@@ -274,6 +277,7 @@ impl Renderer {
             *drawn = Some(DrawnPlan { executor, chosen: chosen.clone() });
             Change::Executor { carried_over }
         };
+        *plans += 1;
         self.changed = false;
         Ok(change)
     }
@@ -398,6 +402,27 @@ impl Renderer {
     #[must_use]
     pub fn plan(&self) -> Option<&Plan> {
         self.drawn.as_ref().map(|drawn| drawn.executor.plan())
+    }
+
+    /// How many Plans it has made: another number, another Plan.
+    #[must_use]
+    pub fn plans(&self) -> u64 {
+        self.plans
+    }
+
+    /// The texts of the pipeline's files, as they were read last.
+    #[must_use]
+    pub fn sources(&self) -> &Sources {
+        &self.pipeline.sources
+    }
+
+    /// The name of the pipeline, for people: that of its file, or the one that the program gave it.
+    #[must_use]
+    pub fn name(&self) -> String {
+        match &self.origin {
+            Origin::File(file) => file.to_string_lossy().into_owned(),
+            Origin::Text { name, .. } => name.clone(),
+        }
     }
 
     /// The features of a device that the Plan of the next frame uses, with the first that uses each: see [`Plan::features`]. A device

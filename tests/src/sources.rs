@@ -7,13 +7,14 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 /// The folders of sources that are no tests.
-pub const FOLDERS: [&str; 7] = [
+pub const FOLDERS: [&str; 8] = [
     "graph/src",
     "backend-vulkan/src",
     "passes/src",
     "framewright/src",
     "framewright/c/src",
     "framewright/lab/src",
+    "framewright/viewer/src",
     "cli/src",
 ];
 

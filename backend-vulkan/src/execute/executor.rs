@@ -225,6 +225,15 @@ impl Executor {
         self.first_frame + self.frames.next()
     }
 
+    /// The oldest frame of this executor whose place no later one has taken: the next frame but those in flight waits for it. `None` before
+    /// the first.
+    #[must_use]
+    pub fn oldest_frame(&self) -> Option<u64> {
+        let next = self.frames.next();
+        let held = (0..next).rev().take_while(|frame| self.frames.holds(*frame)).last();
+        held.map(|frame| self.first_frame + frame)
+    }
+
     /// Takes back a frame that [`Executor::record_into`] recorded and that the program never submitted: nothing waits for it. What it
     /// was to leave for later frames isn't there: all steps run in the next frame.
     ///

@@ -7,6 +7,7 @@ use crate::planning::{device, helper};
 use crate::serving::Session;
 use crate::system::{Exit, interrupt, text};
 use framewright_viewer::Server;
+use std::net::Ipv4Addr;
 use std::sync::mpsc::RecvTimeoutError;
 use std::time::Duration;
 
@@ -26,7 +27,7 @@ pub(crate) fn serve(arguments: &ServeArguments) -> Result<Exit, Error> {
     let helper = helper::of(&arguments.pipeline)?;
     let choice = device::to_draw_on(arguments.device.name.as_deref())?;
     let port = arguments.port;
-    let server = Server::start(port).map_err(|source| Error::Port { port, source })?;
+    let server = Server::start((Ipv4Addr::LOCALHOST, port).into(), None).map_err(|source| Error::Port { port, source })?;
     let (address, choices) = (server.address(), server.choices());
     let device = device::open(choice, false, &helper)?;
     let mut session = Session::new(arguments, &device, helper);

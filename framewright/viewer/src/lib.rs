@@ -8,12 +8,14 @@
 mod graph;
 pub mod html;
 mod page;
+mod program;
 mod server;
 mod times;
 mod xml;
 
 pub use graph::{dot, mermaid, svg};
 pub use page::{DeviceDifferences, Page, ShownPlan, Thumbnail, live_page, page, page_data};
+pub use program::Viewer;
 pub use server::{Choice, Controls, LiveState, Output, PublishedState, Server, SourceText};
 pub use times::{LastFrames, Spread, StepTimes, Times};
 pub use xml::escaped as escape_xml;

@@ -1,6 +1,7 @@
 //! The times of the last frames of a Plan.
 
-use framewright_vulkan::FrameReport;
+use framewright_lab::quantiles::quantile;
+use framewright_vulkan::{FrameReport, StepReport};
 use serde::Serialize;
 use std::collections::VecDeque;
 
@@ -65,7 +66,7 @@ impl LastFrames {
     pub fn times(&self) -> Option<Times> {
         let last = self.reports.back().filter(|report| report.milliseconds > 0.0)?;
         let over = |value: &dyn Fn(&FrameReport) -> Option<f64>| Spread::of(self.reports.iter().filter_map(value));
-        let step = |(at, step): (usize, &framewright_vulkan::StepReport)| StepTimes {
+        let step = |(at, step): (usize, &StepReport)| StepTimes {
             step: over(&|report| Some(report.steps.get(at)?.milliseconds)),
             passes: (0..step.passes.len())
                 .map(|pass| over(&|report| Some(report.steps.get(at)?.passes.get(pass)?.milliseconds)))
@@ -85,15 +86,14 @@ impl Spread {
     fn of(times: impl Iterator<Item = f64>) -> Spread {
         let mut sorted: Vec<f64> = times.collect();
         sorted.sort_by(f64::total_cmp);
-        let at = |share: usize| sorted.get(((sorted.len().max(1) - 1) * share + 5) / 10).copied().unwrap_or_default();
-        Spread { median: at(5), low: at(1), high: at(9) }
+        let at = |share| quantile(&sorted, share).unwrap_or_default();
+        Spread { median: at(0.5), low: at(0.1), high: at(0.9) }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use framewright_vulkan::StepReport;
 
     fn frame(milliseconds: f64) -> FrameReport {
         let step = StepReport { milliseconds: milliseconds / 2.0, ran: true, passes: Vec::new() };
@@ -107,8 +107,11 @@ mod tests {
         (1..=400).for_each(|at| frames.add(frame(f64::from(at))));
         let times = frames.times().expect("there are frames");
         // Of 101 to 400.
-        assert_eq!((times.frames, times.frame), (300, Spread { median: 251.0, low: 131.0, high: 370.0 }));
-        assert_eq!(times.steps[0].step, Spread { median: 125.5, low: 65.5, high: 185.0 });
+        let near = |one: Spread, other: [f64; 3]| {
+            [one.median, one.low, one.high].iter().zip(other).all(|(one, other)| (one - other).abs() < 1e-9)
+        };
+        assert!(times.frames == 300 && near(times.frame, [250.5, 130.9, 370.1]), "{times:?}");
+        assert!(near(times.steps[0].step, [125.25, 65.45, 185.05]), "{times:?}");
         assert_eq!(times.recording, Spread { median: 0.25, low: 0.25, high: 0.25 });
         frames.clear();
         frames.add(frame(3.0));

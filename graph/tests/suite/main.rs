@@ -23,6 +23,7 @@ mod entries;
 mod expression;
 mod format_fallback;
 mod golden_plans;
+mod hints;
 mod language;
 mod layers_and_planes;
 mod local_reads;

@@ -135,6 +135,7 @@ function showState(state, page) {
     if (data.plans[0]) data.plans[0].sources = sourcesOf(state, page);
     showData({ ...data, live: true });
   }
+  if (state.times && models[0]) showTimes(state.times);
   showStatus();
   liveView();
   showWrong(state);
@@ -143,6 +144,22 @@ function showState(state, page) {
   if (outputs !== live.outputs) live.view.outputs.replaceChildren(...state.outputs.map(({ name, picture }) => element("figure", {}, element("img", { src: picture, alt: name }), element("figcaption", {}, name))));
   live.outputs = outputs;
   markMistakes(document);
+}
+
+/** Times of a running program: they change while its Plan stays. */
+function showTimes(times) {
+  const first = !models[0].times;
+  models[0].times = times;
+  const view = VIEWS.find((one) => one.name === state.view);
+  if (first && view?.made) {
+    // Views that were made without times have no room for them.
+    for (const one of VIEWS) {
+      one.made?.remove();
+      one.made = null;
+    }
+    showView(state.view);
+  } else view?.parts?.forEach((part) => part.redraw?.());
+  if (state.selected) showDetails();
 }
 
 /** Asks for states for ever. A server that is gone may come back. */

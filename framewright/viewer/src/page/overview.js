@@ -64,18 +64,30 @@ function overviewView(model) {
     return element("div", { class: "overview" }, tooLarge(model), element("ul", {}, totals.map((line) => element("li", {}, withLinks(line.text)))),
       element("p", {}, element("button", { type: "button", class: "link", onclick: () => { showView("steps"); writeHash(); } }, "The steps that move most")));
   }
+  const box = element("div", { class: "overview" });
+  // Times and pictures of a running program change.
+  box.redraw = () => {
+    box.replaceChildren(...overviewParts(model));
+    highlight(box);
+  };
+  box.redraw();
+  return box;
+}
+
+function overviewParts(model) {
   const figures = figuresOf(model).map(([figure, unit, parts]) => element("div", { class: "figure" }, element("p", { class: "large" }, figure), element("p", { class: "unit" }, unit), element("p", { class: "faint" }, parts)));
   const hints = model.hints.length === 0 ? element("p", { class: "faint" }, "Nothing stands out.") : element("ul", { class: "hints" }, model.hints.map((hint) =>
     element("li", {}, element("code", { class: "faint" }, hint.code), " ", withLinks(hint.text), hint.at ? [" ", placeLink(model, hint.at)] : null)));
   const card = (title, ...inside) => element("section", { class: "card" }, element("h2", {}, title), inside);
   const { device, extent, settings } = model.plan;
   const chosen = settings.map((setting) => `${setting.name}=${setting.value}`).join(", ");
-  return element("div", { class: "overview" },
+  return [
     element("p", {}, `${extent.join("×")} texels on ${device.name}`, chosen ? element("span", { class: "faint" }, "; " + chosen) : null),
     element("div", { class: "figures" }, figures),
     element("div", { class: "cards" },
       card("Picture", element("div", { class: "picture" }, pictureOf(model))),
       card(model.timed() ? "Slowest steps" : "Steps that move most", dearestSteps(model)),
       card("Largest images and buffers", dearestImages(model)),
-      card("What stands out", hints)));
+      card("What stands out", hints)),
+  ];
 }

@@ -1,4 +1,4 @@
-//! The server of the page: on this machine's loopback address alone, and for pages of its own alone.
+//! The server of the page: for pages of its own alone. Where it has a token, all addresses begin with it.
 //!
 //! | address | answer |
 //! |---|---|
@@ -23,9 +23,10 @@ use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
 use axum::{Router, serve};
 use std::io;
-use std::net::{Ipv4Addr, SocketAddr, TcpListener};
-use std::sync::mpsc;
-use std::time::Duration;
+use std::net::{IpAddr, SocketAddr, TcpListener};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError, mpsc};
+use std::time::{Duration, Instant};
 use tokio::sync::watch::{self, Receiver, Sender};
 use tokio::time::timeout;
 
@@ -34,10 +35,17 @@ const LONGEST_WAIT: Duration = Duration::from_secs(25);
 /// A choice has at most this many bytes.
 const LARGEST_CHOICE: usize = 64 << 10;
 
+/// Nobody looks any more when nobody asked for this long: browsers ask again at once.
+const GONE_AFTER: Duration = Duration::from_secs(40);
+
 /// What answers are made of.
 #[derive(Clone)]
 struct ServerState {
     address: SocketAddr,
+    token: Option<Arc<str>>,
+    /// When somebody asked last.
+    asked: Arc<Mutex<Option<Instant>>>,
+    watched: Arc<AtomicBool>,
     page: Bytes,
     shown: Receiver<PublishedState>,
     choices: mpsc::Sender<Choice>,
@@ -47,39 +55,67 @@ struct ServerState {
 #[derive(Debug)]
 pub struct Server {
     address: SocketAddr,
+    token: Option<Arc<str>>,
     publish: Sender<PublishedState>,
     choices: mpsc::Receiver<Choice>,
+    watched: Arc<AtomicBool>,
 }
 
 impl Server {
-    /// One at this port of the loopback address; 0: at a port that is free. It has no state yet.
+    /// One at this address, whose port may be 0: it takes one that is free. It has no state yet. With a `token` it answers whoever knows
+    /// that, through a tunnel too; without, browsers of this machine alone.
     ///
     /// # Errors
-    /// If the port can't be had.
-    pub fn start(port: u16) -> io::Result<Server> {
-        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port))?;
+    /// If the address can't be had.
+    pub fn start(address: SocketAddr, token: Option<&str>) -> io::Result<Server> {
+        let listener = TcpListener::bind(address)?;
         listener.set_nonblocking(true)?;
         let address = listener.local_addr()?;
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         let (publish, shown) = watch::channel(PublishedState::default());
         let (send, choices) = mpsc::channel();
         let page = page::live_page()?.into();
-        let routes = routes(ServerState { address, page, shown, choices: send });
+        let (token, watched) = (token.map(Arc::from), Arc::new(AtomicBool::new(false)));
+        let shared = ServerState {
+            address,
+            token: token.clone(),
+            asked: Arc::default(),
+            watched: Arc::clone(&watched),
+            page,
+            shown,
+            choices: send,
+        };
         let listener = {
             let _entered = runtime.enter();
             tokio::net::TcpListener::from_std(listener)?
         };
-        std::thread::spawn(move || {
+        std::thread::Builder::new().name("framewright viewer".to_owned()).spawn(move || {
             // It only ends with the program.
-            drop(runtime.block_on(async { serve(listener, routes).await }));
-        });
-        Ok(Server { address, publish, choices })
+            runtime.block_on(async {
+                tokio::spawn(forget_who_left(shared.clone()));
+                drop(serve(listener, routes(shared)).await);
+            });
+        })?;
+        Ok(Server { address, token, publish, choices, watched })
     }
 
-    /// Where it answers.
+    /// Where the page is, as a browser takes it.
+    #[must_use]
+    pub fn url(&self) -> String {
+        let token = self.token.iter().map(|token| format!("{token}/")).collect::<String>();
+        format!("http://{}/{token}", self.address)
+    }
+
+    /// Where it listens.
     #[must_use]
     pub fn address(&self) -> SocketAddr {
         self.address
+    }
+
+    /// Whether a page was open a moment ago.
+    #[must_use]
+    pub fn is_watched(&self) -> bool {
+        self.watched.load(Ordering::Relaxed)
     }
 
     /// Shows `state` to all browsers, in place of the one before.
@@ -95,15 +131,17 @@ impl Server {
 }
 
 fn routes(shared: ServerState) -> Router {
+    let prefix = shared.token.iter().map(|token| format!("/{token}")).collect::<String>();
+    let at = |path: &str| format!("{prefix}{path}");
     Router::new()
-        .route("/", get(whole_page))
-        .route("/state/{after}", get(|shared, Path(after): Path<u64>| state(shared, None, after)))
+        .route(&at("/"), get(whole_page))
+        .route(&at("/state/{after}"), get(|shared, Path(after): Path<u64>| state(shared, None, after)))
         .route(
-            "/state/{server}/{after}",
+            &at("/state/{server}/{after}"),
             get(|shared, Path((server, after)): Path<(String, u64)>| state(shared, Some(server), after)),
         )
-        .route("/picture/{*name}", get(picture))
-        .route("/choose", post(choose))
+        .route(&at("/picture/{*name}"), get(picture))
+        .route(&at("/choose"), post(choose))
         // Browsers ask for an icon, and complain where there is no answer.
         .route("/favicon.ico", get(StatusCode::NO_CONTENT))
         .layer(DefaultBodyLimit::max(LARGEST_CHOICE))
@@ -111,19 +149,25 @@ fn routes(shared: ServerState) -> Router {
         .with_state(shared)
 }
 
+/// Notices, every second, that nobody asks any more.
+async fn forget_who_left(shared: ServerState) {
+    loop {
+        tokio::time::sleep(Duration::from_secs(1)).await;
+        let asked = *shared.asked.lock().unwrap_or_else(PoisonError::into_inner);
+        if asked.is_some_and(|asked| asked.elapsed() > GONE_AFTER) {
+            shared.watched.store(false, Ordering::Relaxed);
+        }
+    }
+}
+
 /// Refuses requests of other sites' pages, by whatever name they reach this address; and forbids browsers to keep or frame answers.
 async fn own_pages_alone(State(shared): State<ServerState>, request: Request, next: Next) -> Response {
     let headers = request.headers();
-    let port = shared.address.port();
-    // Browsers leave out the port that HTTP has anyway.
-    let end = if port == 80 { String::new() } else { format!(":{port}") };
-    let own = ["127.0.0.1", "localhost"].map(|name| format!("{name}{end}"));
-    let is_own = |host: &str| own.iter().any(|own| own == host);
     let text = |name: HeaderName| headers.get(name).map(|value| value.to_str().unwrap_or_default());
-    let host = text(HOST).is_some_and(is_own);
-    let origin = text(ORIGIN).is_none_or(|origin| origin.strip_prefix("http://").is_some_and(is_own));
+    let host = text(HOST).filter(|host| is_own(&shared, host));
+    let origin = text(ORIGIN).is_none_or(|origin| origin.strip_prefix("http://").is_some_and(|from| Some(from) == host));
     let form = request.method() != Method::POST || text(CONTENT_TYPE) == Some("application/json");
-    let mut answer = match host && origin && form {
+    let mut answer = match host.is_some() && origin && form {
         true => next.run(request).await,
         false => (StatusCode::FORBIDDEN, "only pages of this server are answered").into_response(),
     };
@@ -140,11 +184,26 @@ async fn own_pages_alone(State(shared): State<ServerState>, request: Request, ne
     answer
 }
 
+/// Whether a request's host is one that pages of this server have. A name of somebody else's may lead to this address, and an address of
+/// numbers is nobody's: with a token it may be the end of a tunnel.
+fn is_own(shared: &ServerState, host: &str) -> bool {
+    let port = shared.address.port();
+    // Browsers leave out the port that HTTP has anyway.
+    let end = if port == 80 { String::new() } else { format!(":{port}") };
+    if shared.token.is_none() {
+        return ["127.0.0.1", "localhost"].iter().any(|name| *host == format!("{name}{end}"));
+    }
+    let name = host.rsplit_once(':').filter(|(_, port)| port.parse::<u16>().is_ok()).map_or(host, |(name, _)| name);
+    name == "localhost" || name.trim_matches(['[', ']']).parse::<IpAddr>().is_ok()
+}
+
 async fn whole_page(State(shared): State<ServerState>) -> impl IntoResponse {
     ([(CONTENT_TYPE, "text/html; charset=utf-8")], shared.page)
 }
 
 async fn state(State(mut shared): State<ServerState>, server: Option<String>, after: u64) -> Response {
+    *shared.asked.lock().unwrap_or_else(PoisonError::into_inner) = Some(Instant::now());
+    shared.watched.store(true, Ordering::Relaxed);
     // A browser that outlived a server at the same address knows numbers of that one.
     let newer = shared.shown.wait_for(|shown| {
         let is_own = server.as_ref().is_none_or(|server| **server == *shown.server);

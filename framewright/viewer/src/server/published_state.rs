@@ -1,6 +1,7 @@
 //! What browsers are told: the state of the page, numbered, and its pictures.
 
 use super::controls::Controls;
+use crate::times::Times;
 use serde::Serialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -44,6 +45,9 @@ pub struct LiveState<'a> {
     pub outputs: &'a [Output],
     /// What the last good frame took, in words.
     pub took: &'a str,
+    /// How long the last frames took, where it changes from state to state; `None`: the page's own data has it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub times: Option<&'a Times>,
 }
 
 /// A picture of an output.

@@ -1,0 +1,69 @@
+//! What stands out in a Plan (LV-4): each hint is about what the Plan does, with its bytes and its line.
+
+use crate::testing::pipelines::{INPUTS, right, shipped};
+use crate::testing::plans::compiled;
+use framewright_graph::hints::{Hint, HintKind, hints};
+use framewright_graph::plan::{Plan, Resource};
+
+/// A pipeline that draws `big` at some size, shows a part of it at another, and shows that.
+fn pipeline(big: u32, half: u32) -> Plan {
+    let text = format!(
+        r#"Pipeline(version: 1, images: [
+            (name: "big", format: R16G16B16A16_SFLOAT, size: Fixed({big}, {big})),
+            (name: "half", format: R16G16B16A16_SFLOAT, size: Fixed({half}, {half})),
+            (name: "screen", format: R8G8B8A8_UNORM, size: Output)],
+         passes: [
+            (name: "draw", draw: FullScreen("sky"), color: ["big"]),
+            (name: "shrink", draw: FullScreen("downsample"), sample: {{"source": "big"}}, color: ["half"]),
+            (name: "show", draw: FullScreen("tone_map"), sample: {{"source": "half"}}, params: {{"exposure": 1.0, "white_point": 1.0}},
+             color: ["screen"])], outputs: ["screen"])"#
+    );
+    compiled(&right(&text, &INPUTS))
+}
+
+fn of_kind(plan: &Plan, kind: HintKind) -> Vec<Hint> {
+    hints(plan).into_iter().filter(|hint| hint.kind == kind).collect()
+}
+
+#[test]
+fn lv_4_an_image_that_is_only_shown_smaller_stands_out() {
+    let found = of_kind(&pipeline(1024, 512), HintKind::ShownSmaller);
+    assert_eq!(found.len(), 1, "{found:#?}");
+    assert_eq!(found[0].text, "`big` has 1024×1024 texels, and is read by passes that draw 512×512 or less");
+    assert_eq!((found[0].code, found[0].bytes), ("H03", 1024 * 1024 * 8));
+    assert!(found[0].at.is_some(), "its line");
+    assert_eq!(of_kind(&pipeline(1024, 1024), HintKind::ShownSmaller), []);
+}
+
+#[test]
+fn lv_4_an_image_that_one_pass_reads_stands_out_with_that_pass() {
+    let found = of_kind(&pipeline(2048, 2048), HintKind::OneReader);
+    let texts: Vec<&str> = found.iter().map(|hint| &*hint.text).collect();
+    assert_eq!(texts, ["`big` is stored for one reader, `shrink`", "`half` is stored for one reader, `show`"]);
+}
+
+#[test]
+fn lv_4_what_takes_half_of_the_memory_stands_out() {
+    let plan = compiled(&right(&shipped("deferred.ron"), &INPUTS));
+    let found = of_kind(&plan, HintKind::LargestShare);
+    assert_eq!(found.len(), 1, "{found:#?}");
+    assert!(found[0].text.starts_with("`shadow` is 64.0 MiB of "), "{}", found[0].text);
+    assert_eq!(found[0].bytes, 64 << 20);
+}
+
+#[test]
+fn lv_4_hints_say_what_the_plan_says() {
+    for name in ["forward.ron", "deferred.ron", "deferred_mobile.ron", "temporal.ron"] {
+        let plan = compiled(&right(&shipped(name), &INPUTS));
+        let moved = plan.moved().sum();
+        let found = hints(&plan);
+        assert!(found.is_sorted_by(|one, other| one.bytes >= other.bytes), "{name}: the most bytes first");
+        for hint in found {
+            let named = hint.text.split('`').nth(1).expect("a name");
+            let resources = (0..).map(framewright_graph::plan::ImageId).take(plan.images.len()).map(Resource::Image);
+            let is_image = resources.into_iter().any(|image| plan.resource_name(image) == named);
+            assert!(is_image || hint.kind == HintKind::ResolvedApart, "{name}: {hint:?}");
+            assert!(hint.bytes <= moved.max(plan.totals.transient_bytes), "{name}: {hint:?}");
+        }
+    }
+}
