@@ -62,10 +62,10 @@ fn every_view_of_every_shipped_pipeline_shows_what_its_plan_says() {
         assert_eq!(shown("#view-memory rect.block"), resources().filter(is_transient).count(), "{about}: memory");
         assert_eq!(shown("#view-steps details"), list(&plan, "steps").len(), "{about}: steps");
         assert_eq!(shown("#view-cost tbody tr"), list(&plan, "steps").len(), "{about}: cost");
-        assert_eq!(shown("#view-queues g[data-key]"), list(&plan, "steps").len(), "{about}: queues");
+        assert_eq!(shown("#view-timeline g[data-key]"), list(&plan, "steps").len(), "{about}: timeline");
         let waits = list(&plan, "steps").iter().flat_map(|step| list(step, "waits"));
         assert_eq!(
-            shown("#view-queues path.wait"),
+            shown("#view-timeline path.wait"),
             waits.filter(|wait| wait["frames_ago"] == 0).count(),
             "{about}: waits"
         );
@@ -122,7 +122,7 @@ fn what_is_selected_is_marked_in_every_view_and_stands_in_the_address() {
     assert!(about.contains("tone_map samples color and it has 4 samples"), "{about}");
     assert!(about.contains("color (resolved) goes too: 7.0 MiB."), "{about}");
     assert!(browser.text("location.hash").ends_with("pass=resolve%20color"));
-    for view in ["graph", "grid", "memory", "steps", "cost", "queues", "images", "notes", "source"] {
+    for view in ["overview", "graph", "timeline", "grid", "memory", "steps", "cost", "images", "notes", "source"] {
         browser.click(&format!("#tab-{view}"));
         assert_eq!(browser.text("state.view"), view);
         let panel = format!("document.querySelector('#view-{view}')");
@@ -143,6 +143,48 @@ fn what_is_selected_is_marked_in_every_view_and_stands_in_the_address() {
 }
 
 #[test]
+fn lv_4_the_overview_has_figures_what_is_dearest_and_what_stands_out() {
+    let Some(mut browser) = Browser::start() else { return };
+    let place = Place::new();
+    let (plan, page) = plan_and_page(&place, &["deferred"]);
+    browser.open_file(&page, "");
+    assert_eq!(browser.text("state.view"), "overview");
+    let figures = browser.text("[...document.querySelectorAll('#view-overview .large')].map((one) => one.textContent).join()");
+    let totals = &plan["totals"];
+    assert!(figures.starts_with(&format!("{},", totals["passes"])), "{figures}");
+    assert!(figures.ends_with(&format!(",{},{}", totals["barrier_calls"], totals["resolves"])), "{figures}");
+    let hints = browser.text("document.querySelector('#view-overview .hints').innerText");
+    assert!(hints.contains("H01 shadow is 64.0 MiB of 105.6 MiB of transient memory"), "{hints}");
+    // A name leads to its panel, and Back to where it was.
+    browser.click("#view-overview .hints button.link");
+    assert_eq!(browser.text("state.selected"), "image:shadow");
+    browser.ask("history.back()");
+    browser.until("state.selected === null");
+    browser.has_no_errors();
+}
+
+#[test]
+fn lv_6_fragments_fold_into_boxes_and_unfold() {
+    let Some(mut browser) = Browser::start() else { return };
+    let place = Place::new();
+    let (plan, page) = plan_and_page(&place, &["deferred"]);
+    browser.open_file(&page, "#view=graph");
+    let shown = "document.querySelectorAll('#view-graph g[data-key]:not(.beside)').length";
+    browser.ask("printing = true, VIEWS.forEach((view) => view.parts?.forEach((part) => part.redraw?.()))");
+    assert_eq!(browser.count(shown), nodes(&plan));
+    browser.ask("[...document.querySelectorAll('#view-graph .tools button')].at(-1).click()");
+    browser.settle();
+    let boxes = browser.count("document.querySelectorAll('#view-graph .fragment').length");
+    assert!(boxes > 2 && browser.count(shown) < nodes(&plan) / 2, "{boxes}");
+    // Enter unfolds the one that has the focus.
+    browser.ask("document.querySelector('#view-graph .fragment [role=button]').focus()");
+    browser.press("Enter");
+    browser.settle();
+    assert_eq!(browser.count("document.querySelectorAll('#view-graph .fragment').length"), boxes - 1);
+    browser.has_no_errors();
+}
+
+#[test]
 fn keys_and_the_search_reach_everything() {
     let Some(mut browser) = Browser::start() else { return };
     let place = Place::new();
@@ -153,7 +195,7 @@ fn keys_and_the_search_reach_everything() {
     assert_eq!(browser.text("state.selected"), "pass:opaque");
     browser.press("ArrowRight");
     assert_eq!(browser.text("state.selected"), "pass:sky");
-    browser.press("3");
+    browser.press("5");
     assert_eq!(browser.text("state.view"), "memory");
     browser.press("/");
     for letter in "(resolved)".chars() {
@@ -180,7 +222,7 @@ fn dark_narrow_and_printed_pages_work() {
     browser.open_file(&page, "#view=memory&pass=lighting");
     let ground = browser.text("getComputedStyle(document.body).backgroundColor");
     assert_eq!(ground, "rgb(22, 24, 27)", "dark");
-    for view in ["graph", "grid", "memory", "steps", "cost", "images", "notes", "devices"] {
+    for view in ["overview", "graph", "timeline", "grid", "memory", "steps", "cost", "images", "notes", "devices"] {
         browser.click(&format!("#tab-{view}"));
         let over = browser.ask("document.documentElement.scrollWidth - innerWidth");
         assert!(over.as_i64().expect("a number") <= 0, "{view} is {over} pixels too wide");
@@ -257,13 +299,18 @@ fn a_thousand_passes_are_drawn_as_far_as_they_are_in_sight() {
     assert!(size <= 5 << 20, "{size} bytes");
     browser.open_file(&page, "#view=graph");
     assert_eq!(browser.count("models[0].nodes.length"), nodes(&plan));
-    for (view, most) in [("graph", 300), ("grid", 600)] {
+    for (view, scroll, most) in [
+        ("graph", "box.show(0, 9000, 10, 10)", 600),
+        ("grid", "box.scrollTop = 9000; box.scrollLeft = 9000", 900),
+        ("timeline", "box.scrollTop = 9000; box.scrollLeft = 9000", 900),
+    ] {
         browser.click(&format!("#tab-{view}"));
         let begin = browser.text("String(performance.now())");
-        let made = "(() => { const before = elementsMade; const box = document.querySelector('.view-panel:not([hidden]) .scroller'); \
-            box.scrollTop = 9000; box.scrollLeft = 9000; \
-            return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(elementsMade - before)))); })()";
-        let made = browser.count(made);
+        let made = format!(
+            "(() => {{ const before = elementsMade; const box = document.querySelector('.view-panel:not([hidden]) :is(.scroller, .canvas)'); {scroll}; \
+             return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(elementsMade - before)))); }})()"
+        );
+        let made = browser.count(&made);
         assert!(made > 20 && made < most, "{made} elements for a step of scrolling in {view}");
         println!("{view}: {made} elements, at {begin} ms");
     }
@@ -291,6 +338,9 @@ fn of_a_plan_that_is_too_large_the_page_is_a_summary_and_says_so() {
     browser.click("#tab-graph");
     let shown = browser.text("document.querySelector('#view-graph').innerText");
     assert!(shown.contains(&format!("This Plan has {passes} steps.")));
+    browser.click("#tab-overview");
+    let shown = browser.text("document.querySelector('#view-overview').innerText");
+    assert!(shown.contains("barriers") && !shown.contains('`'), "{shown}");
     browser.has_no_errors();
     let said = place.run(&["inspect", "p.ron", "--format", "svg"]).exits(1);
     said.mentions(&format!("a picture of {passes} passes can't be read"));

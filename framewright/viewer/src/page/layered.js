@@ -8,6 +8,8 @@
 const LAYER_GAP = 34;
 const BOX_GAP = 26;
 const LANE = 14;
+/** An edge over more layers than this goes behind what lies between: lanes for it would be most of the graph. */
+const LONGEST = 30;
 function layered(boxes, edges) {
   const above = boxes.map(() => []);
   const below = boxes.map(() => []);
@@ -21,7 +23,8 @@ function layered(boxes, edges) {
   const spots = boxes.map((box, at) => ({ width: box.width, height: box.height, layer: layer[at], up: [], down: [] }));
   const chains = edges.map(({ from, to }) => {
     const chain = [from];
-    for (let between = layer[from] + 1; between < layer[to]; between += 1) {
+    const passes = layer[to] - layer[from] <= LONGEST;
+    for (let between = layer[from] + 1; passes && between < layer[to]; between += 1) {
       spots.push({ width: LANE, height: 0, layer: between, up: [], down: [] });
       chain.push(spots.length - 1);
     }
