@@ -297,7 +297,8 @@ fn in_halves_shaders_ask_which_half_is_theirs_and_in_layers_they_need_not() {
 fn st_2_a_shader_that_misses_its_half_is_told_what_its_language_has_for_that() {
     let helps = [
         ("deaf", "include `include/texture.glsl` and look it up by `found_in(source, source_st, uv)`"),
-        ("deaf.hlsl:main", "include `include/part.hlsl` and look it up by `uv_adjust(uv, source_st)`"),
+        ("deaf.hlsl:main", "`include/part.hlsl` and look it up by `uv_clamp(uv_adjust(uv, source_st), source_st, size)`, where"),
+        ("deaf.slang:main", "`include/part.hlsl` and look it up by `uv_clamp(uv_adjust(uv, source_st), source_st, size)`, where"),
         ("deaf.wgsl:main", "WGSL isn't told of halves: draw in a mode with layers, or by `multi-pass`"),
     ];
     for (shader, help) in helps {
