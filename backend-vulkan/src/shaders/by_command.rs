@@ -122,7 +122,7 @@ fn without_library(command: &CompilerCommand, said: &str) -> ShaderProblem {
     let program = command.program();
     ShaderProblem::Compiler {
         what: format!("its compiler `{program}` lacks a library of its own"),
-        help: format!("try `{program} -O0`, which calls none; it said: {}", cut(said)),
+        help: format!("try `slangc -O0`, which calls none; it said: {}", cut(said)),
         of_machine: true,
         choice: Some(OutsideChoice::ShaderCompiler),
     }

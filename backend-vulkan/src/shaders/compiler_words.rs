@@ -112,6 +112,8 @@ fn found(said: &str) -> Vec<Complaint<'_>> {
             None if trimmed.starts_with("error") => {
                 open = trimmed.split_once(": ").map(|(_, words)| words.to_owned());
             }
+            // The place of another message is none of the mistake's.
+            None if trimmed.starts_with("warning") || trimmed.starts_with("note") => open = None,
             None => {}
         }
     }
@@ -193,12 +195,15 @@ mod tests {
         ] {
             assert_eq!(told(said), expected, "{said}");
         }
+        let placed_warning = "error[E1]: what\nwarning[E2]: else\n --> post.slang:4:12\n";
+        assert_eq!(found(placed_warning), []);
         assert_eq!(found("warning: x\nERROR: 1 compilation errors. No code generated.\nnote: a:1:2: what"), []);
     }
 
     #[test]
     fn mistakes_without_a_place_are_told_without_the_warnings_before_them() {
-        let warning = "warning[E39029]: D3D register without Vulkan binding or shift\n --> lens.hlsl:2:28\n  |\n--'\n".repeat(30);
+        let warning =
+            "warning[E39029]: D3D register without Vulkan binding or shift\n --> lens.hlsl:2:28\n  |\n--'\n".repeat(30);
         let error = "error[E00100]: failed to load downstream compiler 'spirv-opt'";
         let said = format!("{warning}{error}\nnote[E99996]: failed to load dynamic library 'pthread'\n{warning}");
         let told: Vec<String> = complaints(&said, &[]).into_iter().map(|it| it.text).collect();

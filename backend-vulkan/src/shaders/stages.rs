@@ -50,7 +50,8 @@ pub(super) fn join(vertex: &CompiledStage, fragment: &CompiledStage) -> Result<S
                 Some(FileLanguage::Hlsl | FileLanguage::Slang) => in_hlsl(ty),
                 Some(FileLanguage::Spirv | FileLanguage::Wgsl) | None => ty.to_owned(),
             };
-            let found = handed.map_or("nothing".to_owned(), |output| format!("`{} {}`", shown(&output.ty), output.name));
+            let found =
+                handed.map_or("nothing".to_owned(), |output| format!("`{} {}`", shown(&output.ty), output.name));
             let component = match input.component {
                 0 => String::new(),
                 component => format!(", component {component}"),

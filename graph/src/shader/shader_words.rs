@@ -34,7 +34,9 @@ pub(crate) fn without_halves(language: &str) -> String {
 pub(crate) fn unturned(shader: &str, part: UnturnedPart) -> String {
     match part {
         UnturnedPart::Vertices => match vertex_language(shader) {
-            None | Some(FileLanguage::Hlsl | FileLanguage::Slang) => "places vertices without `rotate_clip()`".to_owned(),
+            None | Some(FileLanguage::Hlsl | FileLanguage::Slang) => {
+                "places vertices without `rotate_clip()`".to_owned()
+            }
             Some(FileLanguage::Spirv | FileLanguage::Wgsl) => "places vertices".to_owned(),
         },
         UnturnedPart::FragCoord => {

@@ -184,7 +184,8 @@ impl Check<'_> {
         let wrong = Diagnostic::new(Code::READ_BEFORE_WRITTEN, span, format!("{what} is read before it is written"))
             .remark("read here");
         if writer.position == position {
-            let mut help = format!("a pass reads what stood there before the pass: let it write into another {}", kind(of));
+            let mut help =
+                format!("a pass reads what stood there before the pass: let it write into another {}", kind(of));
             if let Some(previous) = self.previous(of) {
                 help = format!("{help}; {previous}");
             }

@@ -45,8 +45,8 @@ pub(in crate::expand) fn give(
             }
             misspelt.extend(nearest(name, block.members.iter().map(|member| &*member.name)));
             let unknown = format!("shader `{shader}` has no parameter named `{name}`");
-            let help = suggestion(name, block.members.iter().map(|member| &*member.name))
-                .or_else(|| Some(no_block(shader)));
+            let help =
+                suggestion(name, block.members.iter().map(|member| &*member.name)).or_else(|| Some(no_block(shader)));
             errors.push(Diagnostic { help, ..Diagnostic::new(Code::UNKNOWN_PARAM, param.name.span, unknown) });
             continue;
         };

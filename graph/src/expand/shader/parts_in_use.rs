@@ -4,7 +4,9 @@ use super::variant;
 use crate::base::{Code, Diagnostic};
 use crate::expand::resources::Resources;
 use crate::language;
-use crate::shader::{FileLanguage, LanguageFacts, MOST_PARTS, ShaderInterface, declared_name, element_of, shader_words};
+use crate::shader::{
+    FileLanguage, LanguageFacts, MOST_PARTS, ShaderInterface, declared_name, element_of, shader_words,
+};
 
 /// The mistake of a shader that samples or reads the image `part` as `name`, of which only a part is in use, and doesn't ask for that part;
 /// `None` if it asks. `by`: how it could find the part, in words.

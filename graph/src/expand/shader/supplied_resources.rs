@@ -8,8 +8,8 @@ use crate::frame::Draw;
 use crate::language;
 use crate::ron::Name;
 use crate::shader::{
-    AttributeMisfit, Binding, Block, DrawInterface, FileLanguage, LayoutFault, PARAMS, PASS_SET, ProgramResource, ProgramSet,
-    ShaderInterface, SuppliedResource, UnbindableResource, VertexLayout, needs_in_pass,
+    AttributeMisfit, Binding, Block, DrawInterface, FileLanguage, LayoutFault, PARAMS, PASS_SET, ProgramResource,
+    ProgramSet, ShaderInterface, SuppliedResource, UnbindableResource, VertexLayout, needs_in_pass,
 };
 use std::sync::Arc;
 
