@@ -105,11 +105,11 @@ fn do_2_registers_that_meet_are_told_with_the_flags_that_part_them() {
         // `OpDecorate` of four words with `Binding`: each gets the number 0.
         let mut words: Vec<u32> = module.as_chunks().0.iter().map(|word| u32::from_le_bytes(*word)).collect();
         let places: Vec<usize> =
-            (0..words.len() - 3).filter(|at| words[*at] == 4 << 16 | 71 && words[at + 2] == 33).collect();
+            (0..words.len() - 3).filter(|at| words[*at] == 0x0004_0047 && words[at + 2] == 33).collect();
         places.into_iter().for_each(|at| words[at + 3] = 0);
         words.into_iter().flat_map(u32::to_le_bytes).collect()
     };
-    for (file, bytes) in [("lens.hlsl", high.as_bytes()), ("lens.spv", &meeting)] {
+    for (file, bytes) in [("lens.hlsl", high.as_bytes()), ("lens.spv", meeting.as_slice())] {
         let place = Place::new();
         place.file(
             "p.ron",
