@@ -184,8 +184,11 @@ impl Check<'_> {
         let wrong = Diagnostic::new(Code::READ_BEFORE_WRITTEN, span, format!("{what} is read before it is written"))
             .remark("read here");
         if writer.position == position {
-            let mut help =
-                format!("a pass reads what stood there before the pass: let it write into another {}", kind(of));
+            let mut help = "a pass reads what stood there before the pass".to_owned();
+            let draws = &self.resources.pipeline.passes[position].color;
+            if draws.iter().any(|target| Resource::Image(target.part.image.index) == of) {
+                help.push_str(": let it draw into another image");
+            }
             if let Some(previous) = self.previous(of) {
                 help = format!("{help}; {previous}");
             }
@@ -219,7 +222,8 @@ impl Check<'_> {
     fn previous(&self, of: Resource) -> Option<String> {
         let Some(Lifetime::History { .. }) = self.resources.lifetime(of) else { return None };
         let name = &self.resources.name(of).text;
-        Some(format!("what the frame before left is `({}: \"{name}\", previous: 1)`", kind(of)))
+        let kind = if matches!(of, Resource::Image(_)) { "image" } else { "buffer" };
+        Some(format!("what the frame before left is `({kind}: \"{name}\", previous: 1)`"))
     }
 
     /// Shows where passes were removed that may have written the missing part.
@@ -323,13 +327,5 @@ impl Check<'_> {
             State::Off { because, .. } => Some((writer, because)),
             State::On(_) => None,
         }
-    }
-}
-
-/// What a resource is, in a word of the file.
-const fn kind(resource: Resource) -> &'static str {
-    match resource {
-        Resource::Image(_) => "image",
-        Resource::Buffer(_) => "buffer",
     }
 }
