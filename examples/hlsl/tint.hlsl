@@ -11,7 +11,7 @@ cbuffer Tint : register(b0) {
     float corners;
 };
 
-float4 PSMain([[vk::location(0)]] float2 uv : TEXCOORD0) : SV_Target0 {
+float4 PSMain(float2 uv : TEXCOORD0) : SV_Target0 {
     float3 color = source.Sample(linear_clamp, uv).rgb;
     float3 toned = dot(color, float3(0.2126, 0.7152, 0.0722)) * tint;
     float2 from_centre = uv - 0.5;

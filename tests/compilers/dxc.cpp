@@ -1,10 +1,11 @@
-// DXC as a command over its library: `dxc ARGUMENTS -Fo OUTPUT INPUT`. fetch.sh compiles it; Linux packages have only the library.
+// DXC as a command over its library: `dxc ARGUMENTS -Fo OUTPUT INPUT`, in any order. fetch.sh compiles it; Linux packages have only the library.
 #include <cstdint>
 #include <cstring>
 #include <cwchar>
 #include <cstdio>
 #include <cstdlib>
 #include <dlfcn.h>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -25,8 +26,12 @@ int main(int count, char **arguments) {
             output = arguments[++at];
             continue;
         }
-        if (at + 1 == count) input = word;
+        if (word[0] != '-' && std::filesystem::is_regular_file(word)) input = word;
         words.emplace_back(word.begin(), word.end());
+    }
+    if (input.empty()) {
+        std::fputs("no file to compile\n", stderr);
+        return 1;
     }
     void *library = dlopen(DXC_LIBRARY, RTLD_NOW);
     if (!library) {

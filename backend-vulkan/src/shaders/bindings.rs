@@ -88,10 +88,14 @@ pub(super) fn bindings(
     {
         let (Binding { set, binding, name, .. }, other) = (&pair[0], &pair[1].name);
         let what = format!("`{name}` and `{other}` at the same place: set {set}, binding {binding}");
-        return Err(RefusedStage::named(other, what));
+        return Err(RefusedStage::named(other, what).mended_in_files(SAME_PLACE));
     }
     Ok(bindings)
 }
+
+/// What mends that two registers of HLSL become one place.
+const SAME_PLACE: &str = "where HLSL is compiled, leave out the registers, or let DXC move those of each kind: \
+    `-fvk-t-shift 10 0 -fvk-s-shift 20 0 -fvk-u-shift 30 0`";
 
 /// The blocks of push constants that a stage reads, without that of the parts of images.
 pub(super) fn pushed(module: &IndexedModule<'_>, stage: ShaderStage, used: &HashSet<u32>) -> Vec<PushedBlock> {

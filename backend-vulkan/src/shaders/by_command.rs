@@ -1,6 +1,6 @@
 //! HLSL, Slang and WGSL to SPIR-V by a command: it is given a folder with the shader and what it includes, and no others.
 
-use super::compiler_words::{complaints, cut};
+use super::compiler_words::{complaints, cut, lacks_library};
 use super::files::SourceFile;
 use super::shader_compilers::{CompilerCommand, StageToCompile};
 use crate::base::{Cancel, in_words, is_crash};
@@ -68,6 +68,9 @@ pub(super) fn compile(
         if is_crash(status) {
             return Err(faulty(command, format!("crashed ({})", in_words(status)), &said));
         }
+        if let Some(line) = lacks_library(&said) {
+            return Err(without_library(command, line));
+        }
         let files: Vec<&SourceFile> = std::iter::once(source).chain(included).collect();
         let messages = complaints(&said, &files);
         return match messages.is_empty() {
@@ -109,6 +112,17 @@ fn not_there(command: &CompilerCommand) -> ShaderProblem {
     ShaderProblem::Compiler {
         what: format!("its compiler `{program}` isn't there"),
         help: format!("{from}a path names one outside of PATH"),
+        of_machine: true,
+        choice: Some(OutsideChoice::ShaderCompiler),
+    }
+}
+
+/// slangc where it lacks a library that it calls unless it is told not to optimise.
+fn without_library(command: &CompilerCommand, said: &str) -> ShaderProblem {
+    let program = command.program();
+    ShaderProblem::Compiler {
+        what: format!("its compiler `{program}` lacks a library of its own"),
+        help: format!("try `slangc -O0`, which calls none; it said: {}", cut(said)),
         of_machine: true,
         choice: Some(OutsideChoice::ShaderCompiler),
     }

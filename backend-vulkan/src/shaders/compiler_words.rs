@@ -18,14 +18,35 @@ struct Complaint<'s> {
     words: String,
 }
 
-/// The complaints in a compiler's words: those with a line, or all that it said if none has one.
+/// The complaints in a compiler's words: those with a line. If none has one, the mistakes with the notes behind them, and all that it
+/// said if it tells none.
 pub(super) fn complaints(said: &str, files: &[&SourceFile]) -> Vec<ShaderMessage> {
     let located: Vec<ShaderMessage> = found(said).iter().filter_map(|it| message(it, files)).collect();
     if !located.is_empty() {
         return bounded(located);
     }
-    let lines = said.lines().map(str::trim_end).filter(|line| !line.is_empty());
-    bounded(lines.map(|line| ShaderMessage { text: cut(line), quote: None, limit: None }).collect())
+    let mut lines: Vec<&str> = said.lines().map(str::trim_end).filter(|line| !line.is_empty()).collect();
+    let mistakes = mistakes(&lines);
+    if !mistakes.is_empty() {
+        lines = mistakes;
+    }
+    bounded(lines.into_iter().map(|line| ShaderMessage { text: cut(line), quote: None, limit: None }).collect())
+}
+
+/// The lines that tell mistakes without a place, each with the notes right behind it.
+fn mistakes<'s>(lines: &[&'s str]) -> Vec<&'s str> {
+    let begins = |line: &str, words: &[&str]| words.iter().any(|word| line.starts_with(word));
+    let mut is_told = false;
+    let told = lines.iter().filter(|line| {
+        is_told = begins(line, &["error", "fatal error"]) || is_told && begins(line, &["note"]);
+        is_told
+    });
+    told.copied().collect()
+}
+
+/// What slangc says where a library of its own isn't there, to which it hands the SPIR-V for optimisation.
+pub(super) fn lacks_library(said: &str) -> Option<&str> {
+    said.lines().find(|line| line.starts_with("error") && line.contains("failed to load downstream compiler"))
 }
 
 /// A line that a compiler said, without what follows its first letters if it has very many.
@@ -91,6 +112,8 @@ fn found(said: &str) -> Vec<Complaint<'_>> {
             None if trimmed.starts_with("error") => {
                 open = trimmed.split_once(": ").map(|(_, words)| words.to_owned());
             }
+            // The place of another message is none of the mistake's.
+            None if trimmed.starts_with("warning") || trimmed.starts_with("note") => open = None,
             None => {}
         }
     }
@@ -172,7 +195,22 @@ mod tests {
         ] {
             assert_eq!(told(said), expected, "{said}");
         }
+        let placed_warning = "error[E1]: what\nwarning[E2]: else\n --> post.slang:4:12\n";
+        assert_eq!(found(placed_warning), []);
         assert_eq!(found("warning: x\nERROR: 1 compilation errors. No code generated.\nnote: a:1:2: what"), []);
+    }
+
+    #[test]
+    fn mistakes_without_a_place_are_told_without_the_warnings_before_them() {
+        let warning =
+            "warning[E39029]: D3D register without Vulkan binding or shift\n --> lens.hlsl:2:28\n  |\n--'\n".repeat(30);
+        let error = "error[E00100]: failed to load downstream compiler 'spirv-opt'";
+        let said = format!("{warning}{error}\nnote[E99996]: failed to load dynamic library 'pthread'\n{warning}");
+        let told: Vec<String> = complaints(&said, &[]).into_iter().map(|it| it.text).collect();
+        assert_eq!(told, [error, "note[E99996]: failed to load dynamic library 'pthread'"]);
+        assert_eq!(lacks_library(&said), Some(error));
+        assert_eq!(lacks_library(&warning), None);
+        assert_eq!(complaints("what\n\nelse\n", &[]).len(), 2);
     }
 
     #[test]

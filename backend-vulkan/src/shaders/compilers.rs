@@ -5,6 +5,7 @@ use super::by_command;
 use super::compile::{Includes, compile};
 use super::files::{ShaderFiles, SourceFile};
 use super::foreign_files::refuse_foreign;
+use super::hlsl_words;
 use super::messages::located;
 use super::precompiled_shaders::PrecompiledShaders;
 use super::shader_compilers::{CompilerCommand, ShaderCompilers};
@@ -117,6 +118,11 @@ impl Compilers {
                 let entry = job.entry.as_deref().unwrap_or("main");
                 let text = format!("{}: it has no entry point `{entry}`", source.shown);
                 ShaderProblem::DoesNotCompile { messages: vec![ShaderMessage { text, quote: None, limit: None }] }
+            }
+            CompileFailure::Messages(messages) if job.language == Some(FileLanguage::Hlsl) => {
+                let mut messages = located(hlsl_words::plain(messages), text);
+                messages.push(hlsl_words::better_told());
+                ShaderProblem::DoesNotCompile { messages }
             }
             CompileFailure::Messages(messages) => ShaderProblem::DoesNotCompile { messages: located(messages, text) },
             CompileFailure::OutOfMemory => of_file(source, "ran out of memory", None),

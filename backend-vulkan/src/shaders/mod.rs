@@ -24,6 +24,7 @@ mod eyes_of_modules;
 mod file_stages;
 mod files;
 mod foreign_files;
+mod hlsl_words;
 mod indexing;
 mod layers;
 mod library;

@@ -153,7 +153,9 @@ impl StageSources {
             StageName::Glsl(_) => self.files.known_shaders(from, stage.facts().ending),
             StageName::File { file, .. } => {
                 let ending = FileLanguage::of_file(file).map_or("", |language| language.facts().ending);
-                self.files.known_shaders(from, ending).into_iter().map(|name| name + ending).collect()
+                let known = self.files.known_shaders(from, ending).into_iter();
+                // Those that are included are no shaders.
+                known.filter(|name| !name.starts_with("include/")).map(|name| name + ending).collect()
             }
         };
         ShaderProblem::Missing { looked_in, known }

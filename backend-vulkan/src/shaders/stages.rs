@@ -2,7 +2,7 @@
 
 use super::reflect::StageInterface;
 use super::text::RefusedStage;
-use framewright_graph::shader::{PASS_SET, ProgramResource, ShaderInterface};
+use framewright_graph::shader::{FileLanguage, PASS_SET, ProgramResource, ShaderInterface};
 use std::sync::Arc;
 
 /// SPIR-V of one stage, with the entry point `main`.
@@ -24,6 +24,17 @@ pub(super) fn changes_nothing(fragment: &ShaderInterface) -> bool {
     !decides && !writes && !fragment.program.iter().any(|it| it.writable)
 }
 
+/// What mends that a fragment stage reads what the vertex stage doesn't hand over.
+const UNHANDED: &str = "leave it out, or name a vertex stage that hands it over; semantics of HLSL count for nothing, inputs have locations \
+    in their order";
+
+/// A type that SPIR-V has, as HLSL writes it: `float4`. Matrices keep the name that GLSL has for them.
+fn in_hlsl(ty: &str) -> String {
+    let vectors = [("vec", "float"), ("ivec", "int"), ("uvec", "uint"), ("bvec", "bool"), ("dvec", "double")];
+    let vector = vectors.iter().find_map(|(glsl, hlsl)| Some(format!("{hlsl}{}", ty.strip_prefix(glsl)?)));
+    vector.unwrap_or_else(|| ty.to_owned())
+}
+
 /// The interface of both stages together.
 ///
 /// # Errors
@@ -34,16 +45,27 @@ pub(super) fn join(vertex: &CompiledStage, fragment: &CompiledStage) -> Result<S
         let mut handed = vertex.reflected.outputs.iter().filter(|output| output.used);
         let handed = handed.find(|output| (output.location, output.component) == (input.location, input.component));
         if handed.is_none_or(|output| output.ty != input.ty) {
-            let found = handed.map_or("nothing".to_owned(), |output| format!("`{} {}`", output.ty, output.name));
+            let language = FileLanguage::of_file(&fragment.file);
+            let shown = |ty: &str| match language {
+                Some(FileLanguage::Hlsl | FileLanguage::Slang) => in_hlsl(ty),
+                Some(FileLanguage::Spirv | FileLanguage::Wgsl) | None => ty.to_owned(),
+            };
+            let found =
+                handed.map_or("nothing".to_owned(), |output| format!("`{} {}`", shown(&output.ty), output.name));
             let component = match input.component {
                 0 => String::new(),
                 component => format!(", component {component}"),
             };
             let what = format!(
                 "it reads `{} {}` at location {}{component}, where {} hands over {found}",
-                input.ty, input.name, input.location, vertex.file
+                shown(&input.ty),
+                input.name,
+                input.location,
+                vertex.file
             );
-            return Err(RefusedStage::named(&input.name, what));
+            // The text has the last word of `i.color` alone.
+            let word = input.name.rsplit('.').next().unwrap_or(&input.name);
+            return Err(RefusedStage::named(word, what).mended_in_files(UNHANDED));
         }
     }
     let mut joined = fragment.reflected.interface.clone();

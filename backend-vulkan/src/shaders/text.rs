@@ -12,6 +12,8 @@ use std::collections::BTreeSet;
 pub(super) struct RefusedStage {
     pub(super) what: String,
     shown_by: Words,
+    /// What mends it in a file that is named with its ending, behind what is wrong.
+    in_files: &'static str,
 }
 
 /// Words of a text.
@@ -46,29 +48,39 @@ impl Words {
 
 impl From<String> for RefusedStage {
     fn from(what: String) -> RefusedStage {
-        RefusedStage { what, shown_by: Words::None }
+        RefusedStage { what, shown_by: Words::None, in_files: "" }
     }
 }
 
 impl RefusedStage {
     /// With the name that the text gives to what is refused.
     pub(super) fn named(name: &str, what: String) -> RefusedStage {
-        RefusedStage { what, shown_by: Words::Whole(name.to_owned()) }
+        RefusedStage { what, shown_by: Words::Whole(name.to_owned()), in_files: "" }
     }
 
     /// With beginnings of the words that are refused.
     pub(super) fn beginning(words: &'static [&'static str], what: String) -> RefusedStage {
-        RefusedStage { what, shown_by: Words::Beginning(words) }
+        RefusedStage { what, shown_by: Words::Beginning(words), in_files: "" }
     }
 
     /// With the words that are refused.
     pub(super) fn shown_by(shown_by: Words, what: String) -> RefusedStage {
-        RefusedStage { what, shown_by }
+        RefusedStage { what, shown_by, in_files: "" }
+    }
+
+    /// With what mends it in a file that is named with its ending.
+    pub(super) fn mended_in_files(self, in_files: &'static str) -> RefusedStage {
+        RefusedStage { in_files, ..self }
     }
 
     /// As a message with its place: `FILE:LINE: …`, or `FILE: …` where no line shows it.
     pub(super) fn placed(&self, files: &ShaderFiles, stage: &SourceFile) -> String {
-        format!("{}: {}", self.shown_by.place(files, stage), self.what)
+        let place = self.shown_by.place(files, stage);
+        let mended = FileLanguage::of_file(stage.path.path()).filter(|_| !self.in_files.is_empty());
+        match mended {
+            Some(_) => format!("{place}: {}; {}", self.what, self.in_files),
+            None => format!("{place}: {}", self.what),
+        }
     }
 }
 

@@ -28,6 +28,7 @@ mod formats;
 mod frame_in_languages;
 mod halves;
 mod helper_process;
+mod hlsl_words;
 mod image_quality;
 mod included_files;
 mod interrupts;

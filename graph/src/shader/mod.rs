@@ -21,6 +21,7 @@ mod program_set;
 mod push_constants;
 mod set_faults;
 mod shader_name;
+pub(crate) mod shader_words;
 mod vertex_layout;
 
 use crate::base::{FilePath, OutsideChoice, Quote};

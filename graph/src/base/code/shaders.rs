@@ -93,8 +93,8 @@ room! {
 
     /// A shader doesn't ask which part of an image is in use.
     ///
-    /// Of an image that changes its size a part is used, and beyond it there is nothing. `include/part.glsl` has `uv_adjust`,
-    /// which looks up within the part.
+    /// Of an image that changes its size a part is used, and beyond it there is nothing. `include/part.glsl` and `include/part.hlsl` have
+    /// `uv_adjust` and `uv_clamp`, which look up within the part.
     PART_NOT_ASKED = 817,
 
     /// An image can't be read at the fragment's own position.

@@ -22,8 +22,10 @@ room! {
 
     /// The shader doesn't ask for its eye's half.
     ///
-    /// Both eyes' pictures lie side by side in one image. `frag_coord()` of `include/rotation.glsl` and `found_in` of
-    /// `include/texture.glsl` are places in the eye's own half.
+    /// Both eyes' pictures lie side by side in one image. What finds the eye's own half in GLSL is `frag_coord()` of
+    /// `include/rotation.glsl` and `found_in` of `include/texture.glsl`; in HLSL and Slang `frag_coord(position)` of
+    /// `include/rotation.hlsl`, and `uv_clamp(uv_adjust(…))` of `include/part.hlsl`. SPIR-V files and WGSL aren't told of halves: for
+    /// them choose a mode with layers, or `multi-pass`.
     EYE_HALF = 1004,
 
     /// The frame has no view.
@@ -50,6 +52,7 @@ room! {
     /// A shader would see that its target is turned.
     ///
     /// It reads places or derivatives of the screen as they are. `frag_coord()`, `ddx()`, `ddy()` and `rotate_clip()` of
-    /// `include/rotation.glsl` are those of the upright picture.
+    /// `include/rotation.glsl` are those of the upright picture; `include/rotation.hlsl` has `frag_coord(position)` and
+    /// `rotate_clip()`.
     SHADER_SEES_ROTATION = 1009,
 }

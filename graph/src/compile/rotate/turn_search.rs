@@ -2,6 +2,7 @@
 
 use crate::base::{Code, Diagnostic, Span};
 use crate::frame::{Access, Frame, Image, ImageIndex, Lifetime, Output, Pass, ResolveWay, Resource};
+use crate::shader::shader_words;
 use crate::vulkan::{Rotation, Shape};
 use std::collections::BTreeSet;
 
@@ -137,10 +138,9 @@ impl TurnSearch<'_> {
             return Hindrance::Upright(what, pass.span);
         }
         let (name, degrees) = (self.name(image), degrees(self.rotation));
-        let help = format!(
-            "use `frag_coord()`, `ddx()`, `ddy()` and `rotate_clip()` of `include/rotation.glsl`; or draw into another image, \
-             and from that into `{name}`"
-        );
+        let shader = pass.work.draw().map_or("", |(_, shader)| &**shader);
+        let use_that = shader_words::for_turned_pictures(shader);
+        let help = format!("{use_that}; or draw into another image, and from that into `{name}`");
         Hindrance::Wrong(Box::new(
             Diagnostic::new(
                 Code::SHADER_SEES_ROTATION,

@@ -185,6 +185,10 @@ impl Check<'_> {
             .remark("read here");
         if writer.position == position {
             let mut help = "a pass reads what stood there before the pass".to_owned();
+            let draws = &self.resources.pipeline.passes[position].color;
+            if draws.iter().any(|target| Resource::Image(target.part.image.index) == of) {
+                help.push_str(": let it draw into another image");
+            }
             if let Some(previous) = self.previous(of) {
                 help = format!("{help}; {previous}");
             }

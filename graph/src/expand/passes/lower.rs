@@ -39,7 +39,7 @@ pub(in crate::expand) fn lower(
     if let (Some(path), Some(interface)) = (&path, &interface) {
         lowered.no_rotation = rotation::hindrance(&lowered.work, interface);
         lowered.needs = supplied_resources::needs(shaders, pass, interface);
-        supplied_resources::check(resources, shaders, pass, (path, interface), errors);
+        let strays = supplied_resources::check(resources, shaders, pass, (path, interface), errors);
         let before = errors.len();
         let mut misspelt = sampled_images::check(resources, pass, &lowered, interface, errors);
         if errors.len() == before {
@@ -53,7 +53,7 @@ pub(in crate::expand) fn lower(
         let whole = (!pass.left_out.is_empty()).then(|| variant::with_all(resources, pass)).flatten();
         let whole = whole.and_then(|whole| shaders.interface(pass, &whole, errors));
         sampled_images::check_left_out(pass, whole.as_ref(), errors);
-        lowered.params = params::give(pass, interface, whole.as_ref(), errors);
+        lowered.params = params::give(pass, interface, whole.as_ref(), &strays, errors);
         constants::check(pass, interface, errors);
         targets::fed(resources, pass, interface, errors);
         shaders.remarks.extend(targets::set(pass, interface, errors));

@@ -4,17 +4,19 @@ use crate::base::{Code, Diagnostic, nearest, shown_number, suggestion};
 use crate::frame::ParamValue;
 use crate::language;
 use crate::ron::Name;
-use crate::shader::{Block, PARAMS, PASS_SET, ParamMisfit, ParamType, ShaderInterface, ShaderName};
+use crate::shader::{Block, FileLanguage, PARAMS, PASS_SET, ParamMisfit, ParamType, ShaderInterface, ShaderName};
 use std::sync::Arc;
 
 /// What a type is that no pipeline file can give.
 const NEITHER: &str = "neither a number nor a vector nor a matrix of 32 bits: split it into several";
 
-/// Values for the members of the shader's block, in the pass's order, each of its member's type.
+/// Values for the members of the shader's block, in the pass's order, each of its member's type. `strays`: blocks in other sets, of which
+/// that is reported.
 pub(in crate::expand) fn give(
     pass: &language::Pass,
     interface: &ShaderInterface,
     whole: Option<&ShaderInterface>,
+    strays: &[&Block],
     errors: &mut Vec<Diagnostic>,
 ) -> Vec<(Arc<str>, ParamValue)> {
     let Some(Name { text: shader, span: named }) = pass.shader() else { return Vec::new() };
@@ -38,10 +40,13 @@ pub(in crate::expand) fn give(
             if whole.and_then(self::block).is_some_and(|whole| whole.members.iter().any(|it| it.name == **name)) {
                 continue;
             }
+            if strays.iter().any(|block| block.members.iter().any(|it| it.name == **name)) {
+                continue;
+            }
             misspelt.extend(nearest(name, block.members.iter().map(|member| &*member.name)));
             let unknown = format!("shader `{shader}` has no parameter named `{name}`");
-            let help = suggestion(name, block.members.iter().map(|member| &*member.name))
-                .or_else(|| Some(format!("shader `{shader}` has no block named `{PARAMS}` in set {PASS_SET}")));
+            let help =
+                suggestion(name, block.members.iter().map(|member| &*member.name)).or_else(|| Some(no_block(shader)));
             errors.push(Diagnostic { help, ..Diagnostic::new(Code::UNKNOWN_PARAM, param.name.span, unknown) });
             continue;
         };
@@ -72,6 +77,19 @@ pub(in crate::expand) fn give(
         }
     }
     given
+}
+
+/// That a shader has no block for parameters, in the words of its language.
+fn no_block(shader: &str) -> String {
+    match FileLanguage::of_shader(shader) {
+        None => format!("shader `{shader}` has no block named `{PARAMS}` in set {PASS_SET}"),
+        Some(FileLanguage::Hlsl | FileLanguage::Slang) => {
+            format!("shader `{shader}` has no constant buffer in `space{PASS_SET}`")
+        }
+        Some(FileLanguage::Spirv | FileLanguage::Wgsl) => {
+            format!("shader `{shader}` has no uniform block in set {PASS_SET}")
+        }
+    }
 }
 
 /// The blocks among which the pass's parameters have no place, since there are several and none is called `params`. Files of

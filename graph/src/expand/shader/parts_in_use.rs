@@ -4,10 +4,12 @@ use super::variant;
 use crate::base::{Code, Diagnostic};
 use crate::expand::resources::Resources;
 use crate::language;
-use crate::shader::{FileLanguage, LanguageFacts, MOST_PARTS, ShaderInterface, declared_name, element_of};
+use crate::shader::{
+    FileLanguage, LanguageFacts, MOST_PARTS, ShaderInterface, declared_name, element_of, shader_words,
+};
 
 /// The mistake of a shader that samples or reads the image `part` as `name`, of which only a part is in use, and doesn't ask for that part;
-/// `None` if it asks. `by`: how it could find the part.
+/// `None` if it asks. `by`: how it could find the part, in words.
 pub(super) fn not_asked(
     resources: &Resources<'_>,
     interface: &ShaderInterface,
@@ -31,14 +33,29 @@ pub(super) fn not_asked(
     }
     let message = format!("shader `{shader}` {reads} `{name}` and doesn't ask which part of `{image}` is in use");
     let help = match FileLanguage::of_shader(shader).map(FileLanguage::facts) {
-        None => format!("include `include/part.glsl` and look it up by `{by}`"),
+        None => format!("include `include/part.glsl` and look it up by {by}"),
         Some(LanguageFacts { includes: Some(ending), .. }) => {
-            format!("include `include/part{ending}` and look it up by `{by}`")
+            format!("include `include/part{ending}` and look it up by {by}")
         }
         Some(LanguageFacts { name, .. }) => format!("{name} isn't told of parts: write the shader in GLSL or HLSL"),
     };
     wrong(message, help)
 }
+
+/// How a place is looked up that may lie beyond the part of the image `name`, as behind an offset.
+pub(super) fn within_part(name: &str) -> String {
+    format!("`uv_clamp(uv_adjust(uv, {name}_st), {name}_st, size)`, {SIZE}")
+}
+
+/// How a shader asks for the extent of the part of the storage image `name`.
+pub(super) fn extent_of_part(shader: &str, name: &str) -> String {
+    match FileLanguage::of_shader(shader) {
+        None => format!("`part_extent(imageSize({name}), {name}_st)`"),
+        Some(_) => format!("`part_extent(size, {name}_st)`, {SIZE}"),
+    }
+}
+
+const SIZE: &str = "where `size` is the image's width and height in texels";
 
 /// How a shader could find its eye's half of the image that it samples as `name`.
 pub(super) fn half_help(shader: &str, name: &str) -> String {
@@ -47,11 +64,9 @@ pub(super) fn half_help(shader: &str, name: &str) -> String {
             "include `include/texture.glsl` and look it up by `found_in({name}, {name}_st, uv)` or `texel_in({name}, {name}_st, texel)`"
         ),
         Some(LanguageFacts { includes: Some(ending), .. }) => {
-            format!("include `include/part{ending}` and look it up by `uv_adjust(uv, {name}_st)`")
+            format!("include `include/part{ending}` and look it up by {}", within_part(name))
         }
-        Some(LanguageFacts { name, .. }) => {
-            format!("{name} isn't told of halves: draw in a mode with layers, or by `multi-pass`")
-        }
+        Some(LanguageFacts { name, .. }) => shader_words::without_halves(name),
     }
 }
 

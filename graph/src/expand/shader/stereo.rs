@@ -4,9 +4,10 @@ use crate::base::{Code, Diagnostic};
 use crate::expand::resources::Resources;
 use crate::frame::{Draw, EyeForm, NoteKind, Remark};
 use crate::language;
-use crate::shader::{ShaderInterface, UnturnedPart};
+use crate::shader::{FileLanguage, ShaderInterface, UnturnedPart, shader_words};
 
-/// Reports a shader that reads `gl_FragCoord` without `frag_coord()`: in halves it isn't the place in one eye's picture.
+/// Reports a shader that reads `gl_FragCoord` without `frag_coord()`, or what its language calls so: in halves it isn't the place in one
+/// eye's picture.
 pub(in crate::expand) fn check_halves(
     resources: &Resources<'_>,
     pass: &language::Pass,
@@ -20,10 +21,15 @@ pub(in crate::expand) fn check_halves(
     let Some(target) = targets.into_iter().find(halves) else { return };
     let (Some(shader), true) = (pass.shader(), interface.unturned.contains(&UnturnedPart::FragCoord)) else { return };
     let name = &resources.declared(target.index).name.text;
-    let message = format!("shader `{}` reads `gl_FragCoord` without `frag_coord()`", shader.text);
+    let language = FileLanguage::of_shader(&shader.text);
+    let message = format!("shader `{}` {}", shader.text, shader_words::unturned(&shader.text, UnturnedPart::FragCoord));
     let wrong = Diagnostic::new(Code::EYE_HALF, shader.span, message);
     let wrong = wrong.label(target.span, format!("both eyes' pictures lie side by side in `{name}`"));
-    errors.push(wrong.help("`frag_coord()` of `include/rotation.glsl` is the place in the eye's own picture"));
+    let help = match (shader_words::upright_position(language), language.map(FileLanguage::facts)) {
+        (Some([function, file]), _) => format!("`{function}` of `{file}` is the place in the eye's own picture"),
+        (None, facts) => shader_words::without_halves(facts.map_or("GLSL", |facts| facts.name)),
+    };
+    errors.push(wrong.help(help));
 }
 
 /// Notes a pass that draws vertices of the file's own into an image of each eye, by a matrix that both eyes share. A buffer is there

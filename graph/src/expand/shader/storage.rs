@@ -140,7 +140,7 @@ pub(in crate::expand) fn check<'i>(
                 check.fits(given.range, *shape, *format, errors);
                 // What is stored beyond the part nobody sees.
                 if image.allocated.is_some() && kind.and_then(BindingKind::storage).is_some_and(|(reads, _)| reads) {
-                    let by = format!("part_extent(imageSize({0}), {0}_st)", name.text);
+                    let by = parts_in_use::extent_of_part(shader, &name.text);
                     errors.extend(parts_in_use::not_asked(
                         resources,
                         interface,

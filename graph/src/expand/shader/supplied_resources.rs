@@ -8,35 +8,69 @@ use crate::frame::Draw;
 use crate::language;
 use crate::ron::Name;
 use crate::shader::{
-    AttributeMisfit, Binding, DrawInterface, LayoutFault, PASS_SET, ProgramResource, ProgramSet, ShaderInterface,
-    SuppliedResource, UnbindableResource, VertexLayout, needs_in_pass,
+    AttributeMisfit, Binding, Block, DrawInterface, FileLanguage, LayoutFault, PARAMS, PASS_SET, ProgramResource,
+    ProgramSet, ShaderInterface, SuppliedResource, UnbindableResource, VertexLayout, needs_in_pass,
 };
 use std::sync::Arc;
 
-/// Reports inputs that the shader, found under `path`, wants and the draw source doesn't provide.
-pub(in crate::expand) fn check(
+/// Reports inputs that the shader, found under `path`, wants and the draw source doesn't provide. Of these it gives back the blocks that
+/// hold the pass's parameters, in another set than the pass's.
+pub(in crate::expand) fn check<'i>(
     resources: &Resources<'_>,
     shaders: &mut CheckedShaders<'_>,
     pass: &language::Pass,
-    (path, interface): (&Arc<str>, &ShaderInterface),
+    (path, interface): (&Arc<str>, &'i ShaderInterface),
     errors: &mut Vec<Diagnostic>,
-) {
-    let Some(shader) = pass.shader() else { return };
+) -> Vec<&'i Block> {
+    let Some(shader) = pass.shader() else { return Vec::new() };
     let own = pass.work.draws(Draw::has_own_vertices);
     if own {
         own_attributes(resources, pass, shader, interface, errors);
     }
-    let Some(brought) = shaders.brought_along_first(pass, path) else { return };
+    let Some(brought) = shaders.brought_along_first(pass, path) else { return Vec::new() };
     if !own {
         attributes(shader, interface, &brought, errors);
     }
     pushed(shader, interface, &brought, errors);
+    let mut strays = Vec::new();
     for binding in interface.bindings.iter().filter(|binding| binding.set != PASS_SET) {
-        resource(shader, binding, &brought.supplied, errors);
+        match stray(pass, binding, &brought.supplied) {
+            Some(block) => {
+                errors.push(not_brought(shader, binding).help(moved(shader, &binding.name)));
+                strays.push(block);
+            }
+            None => resource(shader, binding, &brought.supplied, errors),
+        }
     }
     for used in &interface.program {
         of_program(shader, used, shaders.program_sets(), errors);
     }
+    strays
+}
+
+/// The block at a binding, if it holds parameters of the pass and the draw source brings along nothing of that name.
+fn stray<'i>(pass: &language::Pass, binding: &'i Binding, supplied: &[SuppliedResource]) -> Option<&'i Block> {
+    let block = binding.kind.uniform_block().filter(|_| !supplied.iter().any(|there| there.is_called(binding)))?;
+    let holds = |param: &language::Param| block.members.iter().any(|member| member.name == *param.name.text);
+    pass.params.iter().any(holds).then_some(block)
+}
+
+/// Where a block of parameters belongs, in the words of the shader's language.
+fn moved(shader: &Name, block: &str) -> String {
+    match FileLanguage::of_shader(&shader.text) {
+        None => format!("in the shader: move `{block}` to set {PASS_SET}, and call it `{PARAMS}`"),
+        Some(FileLanguage::Hlsl | FileLanguage::Slang) => format!("in the shader: move `{block}` to `space{PASS_SET}`"),
+        Some(FileLanguage::Spirv | FileLanguage::Wgsl) => format!("in the shader: move `{block}` to set {PASS_SET}"),
+    }
+}
+
+/// That the draw source doesn't bring along what is at a binding.
+fn not_brought(shader: &Name, binding: &Binding) -> Diagnostic {
+    let message = format!(
+        "shader `{}` uses `{}` (set {}, binding {}), which the draw source doesn't bring along",
+        shader.text, binding.name, binding.set, binding.binding
+    );
+    Diagnostic::new(Code::DRAW_SOURCE_LACKS, shader.span, message).choice(OutsideChoice::DrawInterfaces)
 }
 
 /// What the shader asks of the device, and the resources that its pass and the draw source bind for it.
@@ -149,17 +183,16 @@ fn in_the_shader(help: Option<String>) -> Option<String> {
 }
 
 fn resource(shader: &Name, binding: &Binding, supplied: &[SuppliedResource], errors: &mut Vec<Diagnostic>) {
+    let Some(there) = supplied.iter().find(|there| there.is_called(binding)) else {
+        let help = in_the_shader(suggestion(&binding.name, supplied.iter().map(|there| &*there.name)))
+            .or_else(|| Some(format!("what a pass gives belongs into set {PASS_SET}")));
+        errors.push(Diagnostic { help, ..not_brought(shader, binding) });
+        return;
+    };
     let (Name { text: shader, span }, name) = (shader, &binding.name);
     let wanted = format!("shader `{shader}` uses `{name}` (set {}, binding {})", binding.set, binding.binding);
     let here = |message: String| {
         Diagnostic::new(Code::DRAW_SOURCE_LACKS, *span, message).choice(OutsideChoice::DrawInterfaces)
-    };
-    let Some(there) = supplied.iter().find(|there| there.is_called(binding)) else {
-        let help = in_the_shader(suggestion(name, supplied.iter().map(|there| &*there.name)))
-            .or_else(|| Some(format!("what a pass gives belongs into set {PASS_SET}")));
-        let unknown = here(format!("{wanted}, which the draw source doesn't bring along"));
-        errors.push(Diagnostic { help, ..unknown });
-        return;
     };
     if let Some(UnbindableResource { what, instead, .. }) = binding.kind.unbindable() {
         errors.push(here(format!("{wanted} as {what}, which isn't supported")).help(instead));

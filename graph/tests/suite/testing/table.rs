@@ -4,8 +4,8 @@ use framewright_graph::base::Quote;
 use framewright_graph::frame::Draw;
 use framewright_graph::shader::{
     Attribute, Binding, BindingKind, Block, DrawInterface, FragmentOutput, Member, ShaderInterface, ShaderInterfaces,
-    ShaderMessage, ShaderProblem, SuppliedKind, SuppliedResource, UnbindableResource, UnsetOutput, Variant,
-    VertexBuffer, VertexInput,
+    ShaderMessage, ShaderProblem, SuppliedKind, SuppliedResource, UnbindableResource, UnsetOutput, UnturnedPart,
+    Variant, VertexBuffer, VertexInput,
 };
 use framewright_graph::vulkan::{Component, Dimension, Format, ImageShape, Stages};
 
@@ -408,7 +408,10 @@ impl ShaderInterfaces for Table {
                 texture("soft", 1, false, float),
                 params(&[("strength", "float")]),
             ]),
-            "deaf" | "deaf.hlsl:main" | "deaf.wgsl:main" => {
+            "raw" | "raw.hlsl:main" | "raw.slang:main" | "raw.spv" | "raw.wgsl:main" => {
+                ShaderInterface { unturned: vec![UnturnedPart::FragCoord], ..full_screen(vec![source()]) }
+            }
+            "deaf" | "deaf.hlsl:main" | "deaf.slang:main" | "deaf.wgsl:main" => {
                 ShaderInterface { asks_part: Vec::new(), ..full_screen(vec![source()]) }
             }
             "any_texture" => full_screen(vec![adapting("source", variant)]),

@@ -297,13 +297,51 @@ fn in_halves_shaders_ask_which_half_is_theirs_and_in_layers_they_need_not() {
 fn st_2_a_shader_that_misses_its_half_is_told_what_its_language_has_for_that() {
     let helps = [
         ("deaf", "include `include/texture.glsl` and look it up by `found_in(source, source_st, uv)`"),
-        ("deaf.hlsl:main", "include `include/part.hlsl` and look it up by `uv_adjust(uv, source_st)`"),
+        (
+            "deaf.hlsl:main",
+            "`include/part.hlsl` and look it up by `uv_clamp(uv_adjust(uv, source_st), source_st, size)`, where",
+        ),
+        (
+            "deaf.slang:main",
+            "`include/part.hlsl` and look it up by `uv_clamp(uv_adjust(uv, source_st), source_st, size)`, where",
+        ),
         ("deaf.wgsl:main", "WGSL isn't told of halves: draw in a mode with layers, or by `multi-pass`"),
     ];
     for (shader, help) in helps {
         let text = pipeline("", "").replace("FullScreen(\"reinhard\")", &format!("FullScreen(\"{shader}\")"));
         let said = wrong(&text, &drawn(Stereo::DoubleWide));
         assert!(said.contains(help), "{said}");
+    }
+}
+
+/// ST-9: the same of a shader that reads where its fragments lie.
+#[test]
+fn st_9_a_shader_that_reads_raw_positions_is_told_what_its_language_has_for_that() {
+    let halves = "isn't told of halves: draw in a mode with layers, or by `multi-pass`";
+    let told = [
+        (
+            "raw",
+            "reads `gl_FragCoord` without `frag_coord()`",
+            "`frag_coord()` of `include/rotation.glsl` is the place",
+        ),
+        (
+            "raw.hlsl:main",
+            "reads `SV_Position` without `frag_coord(position)`",
+            "`frag_coord(position)` of `include/rotation.hlsl` is",
+        ),
+        (
+            "raw.slang:main",
+            "reads `SV_Position` without `frag_coord(position)`",
+            "`frag_coord(position)` of `include/rotation.hlsl` is",
+        ),
+        ("raw.spv", "reads `FragCoord`", halves),
+        ("raw.wgsl:main", "reads `@builtin(position)`", halves),
+    ];
+    for (shader, message, help) in told {
+        let text = pipeline("", "").replace("FullScreen(\"reinhard\")", &format!("FullScreen(\"{shader}\")"));
+        let said = wrong(&text, &drawn(Stereo::DoubleWide));
+        assert!(said.contains(&format!("shader `{shader}` {message}")) && said.contains(help), "{said}");
+        assert!(frame(&text, &drawn(Stereo::Multiview)).is_ok(), "{shader}");
     }
 }
 
