@@ -219,7 +219,7 @@ mod tests {
         let mut pass = Pass::new("all", work);
         pass.sampled = vec![SampledImage::new("s", image(0), stages)];
         pass.storage =
-            vec![Storage { binding: "t".into(), image: image(1), range, span, read: true, write: true, stages }];
+            vec![Storage { binding: "t".into(), image: image(1), range, span, read: true, write: true, eye: None, stages }];
         pass.color = vec![ColorTarget {
             image: image(2),
             range,

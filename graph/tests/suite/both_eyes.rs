@@ -235,7 +235,7 @@ fn one_eyes_part_is_never_read_at_each_fragments_own_position() {
 fn dispatch(name: &str, image: ImageIndex, write: bool) -> Pass {
     let binding = "target".into();
     let (range, span, stages) = (Subresources::WHOLE, Span::NONE, Stages::COMPUTE_SHADER);
-    let storage = vec![Storage { binding, image, range, span, read: !write, write, stages }];
+    let storage = vec![Storage { binding, image, range, span, read: !write, write, eye: None, stages }];
     let work = Work::Dispatch { shader: name.into(), groups: Groups::Count([1; 3]) };
     Pass { storage, side_effect: true, ..Pass::new(name, work) }
 }
