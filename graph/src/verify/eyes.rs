@@ -119,12 +119,7 @@ fn of_both(plan: &Plan, id: StepId, accesses: &[Access], found: &mut Findings<'_
 }
 
 /// An eye is named of what holds both eyes' parts alone.
-fn named_eyes<'p>(
-    plan: &Plan,
-    id: StepId,
-    accesses: impl IntoIterator<Item = &'p Access>,
-    found: &mut Findings<'_>,
-) {
+fn named_eyes<'p>(plan: &Plan, id: StepId, accesses: impl IntoIterator<Item = &'p Access>, found: &mut Findings<'_>) {
     for access in accesses.into_iter().filter(|access| access.eye.is_some()) {
         let image = Some(access.image.0);
         if plan.image(access.image).eyes.is_none() {
