@@ -4,7 +4,7 @@
 
 use super::findings::Findings;
 use crate::frame::{Eye, EyeForm};
-use crate::plan::{Access, ImageId, Plan, Resource, Role, Side, Step, StepId, Work};
+use crate::plan::{Access, ImageId, Plan, Resource, Role, Side, Step, StepId};
 use crate::vulkan::{Accesses, Layout, LoadOp, Subresources};
 use std::collections::BTreeMap;
 
@@ -22,16 +22,7 @@ struct Layers<'p> {
 }
 
 pub(super) fn check(plan: &Plan, found: &mut Findings<'_>) {
-    let dispatches = plan.steps.iter().filter_map(|step| match &step.work {
-        Work::Dispatch(pass) => Some(pass),
-        Work::Render(_)
-        | Work::Custom(_)
-        | Work::Copy(_)
-        | Work::Resolve(_)
-        | Work::Blit(_)
-        | Work::Fill(_)
-        | Work::Export => None,
-    });
+    let dispatches = plan.steps.iter().filter(|step| step.work.is_dispatch()).flat_map(|step| step.work.passes());
     let mut layers = Layers { plan, defined: BTreeMap::new() };
     for access in dispatches.flat_map(|pass| &pass.accesses).filter(|access| writes_layer(plan, access)) {
         let image = plan.image(access.image);
@@ -89,21 +80,15 @@ impl Layers<'_> {
                 self.set(access.image, access.range, None, true);
             }
         }
-        match &step.work {
-            Work::Copy(transfer) | Work::Resolve(transfer) | Work::Blit(transfer) => {
-                if let Side::Image { image, range, .. } = transfer.source {
-                    self.read(id, image, range, None, found);
+        // A fill has only a target.
+        let sides: Vec<&Side> = step.work.sides().collect();
+        for (at, side) in sides.iter().enumerate() {
+            if let Side::Image { image, range, .. } = **side {
+                match at + 1 == sides.len() {
+                    true => self.set(image, range, None, true),
+                    false => self.read(id, image, range, None, found),
                 }
-                self.write(&transfer.target);
             }
-            Work::Fill(fill) => self.write(&fill.target),
-            Work::Render(_) | Work::Dispatch(_) | Work::Custom(_) | Work::Export => {}
-        }
-    }
-
-    fn write(&mut self, side: &Side) {
-        if let Side::Image { image, range, .. } = side {
-            self.set(*image, *range, None, true);
         }
     }
 
