@@ -246,6 +246,7 @@ impl Builder {
             span: Span::NONE,
             read: false,
             write: true,
+            eye: None,
             stages: Stages::COMPUTE_SHADER,
         };
         let sampled = sampled(reads, Stages::COMPUTE_SHADER);

@@ -217,7 +217,16 @@ fn sampled(pass: &Pass, binding: &str, image: ImageIndex, range: Subresources) -
 
 fn stored(mut pass: Pass, binding: &str, image: ImageIndex, range: Subresources, access: (bool, bool)) -> Pass {
     let (stages, (read, write)) = (stages(&pass), access);
-    pass.storage.push(Storage { binding: binding.into(), image, range, span: Span::NONE, read, write, stages });
+    pass.storage.push(Storage {
+        binding: binding.into(),
+        image,
+        range,
+        span: Span::NONE,
+        read,
+        write,
+        eye: None,
+        stages,
+    });
     pass
 }
 

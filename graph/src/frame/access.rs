@@ -218,8 +218,16 @@ mod tests {
         let work = Work::Forward { from: image(6), to: image(7), because: String::new() };
         let mut pass = Pass::new("all", work);
         pass.sampled = vec![SampledImage::new("s", image(0), stages)];
-        pass.storage =
-            vec![Storage { binding: "t".into(), image: image(1), range, span, read: true, write: true, stages }];
+        pass.storage = vec![Storage {
+            binding: "t".into(),
+            image: image(1),
+            range,
+            span,
+            read: true,
+            write: true,
+            eye: None,
+            stages,
+        }];
         pass.color = vec![ColorTarget {
             image: image(2),
             range,

@@ -87,6 +87,9 @@ pub struct Storage {
     pub read: bool,
     /// Whether it is written.
     pub write: bool,
+    /// The eye whose layer is accessed, of an image that has a layer for each eye. A write that is not `read` leaves the other eye's
+    /// layer undefined.
+    pub eye: Option<Eye>,
     /// Shader stages that access it.
     pub stages: Stages,
 }

@@ -1,6 +1,7 @@
 //! Whether images that hold both eyes' parts are used for both eyes at once, or by shaders that say which eye's part they read.
 
 use super::findings::Findings;
+use super::layers_of_eyes;
 use crate::frame::{Draw, EyeForm, Stereo};
 use crate::plan::{Access, ImageId, Plan, RenderScope, Side, StepId, Transfer, Work};
 use crate::vulkan::{Accesses, Shape};
@@ -20,12 +21,15 @@ pub(super) fn check(plan: &Plan, found: &mut Findings<'_>) {
             let how = plan.stereo.name();
             found.structure(None, Some(image.id.0), format!("holds both eyes' parts as `{how}` doesn't draw them"));
         }
-        if image.shape != Shape::D2 || image.layers > 1 || image.mips > 1 {
+        if image.shape != Shape::D2 || image.layers > 1 {
             found.structure(
                 None,
                 Some(image.id.0),
                 "holds both eyes' parts, which aren't flat or have layers of their own",
             );
+        }
+        if image.eyes == Some(EyeForm::Halves) && image.mips > 1 {
+            found.structure(None, Some(image.id.0), "holds both eyes' parts side by side, and has mip levels");
         }
     }
     for (id, step) in (0..).map(StepId).zip(&plan.steps) {
@@ -44,7 +48,16 @@ pub(super) fn check(plan: &Plan, found: &mut Findings<'_>) {
                 }
             }
             Work::Custom(pass) if pass.both_eyes => of_both(plan, id, &pass.accesses, found),
-            Work::Dispatch(pass) | Work::Custom(pass) => of_an_eye(plan, id, &pass.accesses, false, found),
+            Work::Dispatch(pass) => {
+                let (layers, others): (Vec<&Access>, Vec<&Access>) =
+                    pass.accesses.iter().partition(|access| layers_of_eyes::stored(plan, access));
+                of_an_eye(plan, id, others, false, found);
+                let view = pass.view.and_then(|view| plan.views.get(view.0 as usize)?.eye).map(|of| of.eye);
+                for access in layers.into_iter().filter(|access| view.is_some() && access.eye != view) {
+                    found.structure(Some(id), Some(access.image.0), "is stored into in the layer of the other eye");
+                }
+            }
+            Work::Custom(pass) => of_an_eye(plan, id, &pass.accesses, false, found),
             Work::Copy(transfer) | Work::Resolve(transfer) => same_on_both_sides(plan, id, transfer, found),
             Work::Blit(transfer) => {
                 for side in [&transfer.source, &transfer.target] {
@@ -58,6 +71,7 @@ pub(super) fn check(plan: &Plan, found: &mut Findings<'_>) {
             Work::Fill(_) | Work::Export => {}
         }
     }
+    layers_of_eyes::check(plan, found);
 }
 
 /// All attachments of a scope, and the images that they are resolved into, hold both eyes' parts alike, or none does.
@@ -76,10 +90,16 @@ fn all_or_none(plan: &Plan, id: StepId, scope: &RenderScope, found: &mut Finding
 }
 
 /// Shaders look up the part of an eye: their own if they draw for both, else one that is named.
-fn of_an_eye(plan: &Plan, id: StepId, accesses: &[Access], both: bool, found: &mut Findings<'_>) {
+fn of_an_eye<'p>(
+    plan: &Plan,
+    id: StepId,
+    accesses: impl IntoIterator<Item = &'p Access> + Clone,
+    both: bool,
+    found: &mut Findings<'_>,
+) {
     let stored = Accesses::SHADER_STORAGE_READ | Accesses::SHADER_STORAGE_WRITE;
     let moved = Accesses::TRANSFER_READ | Accesses::TRANSFER_WRITE;
-    for access in accesses.iter().filter(|access| plan.image(access.image).eyes.is_some()) {
+    for access in accesses.clone().into_iter().filter(|access| plan.image(access.image).eyes.is_some()) {
         let image: ImageId = access.image;
         if access.accesses.intersects(stored | moved) {
             found.structure(Some(id), Some(image.0), "holds both eyes' parts, and a pass accesses it as one");
@@ -99,8 +119,8 @@ fn of_both(plan: &Plan, id: StepId, accesses: &[Access], found: &mut Findings<'_
 }
 
 /// An eye is named of what holds both eyes' parts alone.
-fn named_eyes(plan: &Plan, id: StepId, accesses: &[Access], found: &mut Findings<'_>) {
-    for access in accesses.iter().filter(|access| access.eye.is_some()) {
+fn named_eyes<'p>(plan: &Plan, id: StepId, accesses: impl IntoIterator<Item = &'p Access>, found: &mut Findings<'_>) {
+    for access in accesses.into_iter().filter(|access| access.eye.is_some()) {
         let image = Some(access.image.0);
         if plan.image(access.image).eyes.is_none() {
             found.structure(Some(id), image, "is no eye's, and a pass reads one eye's part of it");

@@ -23,6 +23,7 @@ mod dependencies;
 mod eyes;
 mod findings;
 mod frames;
+mod layers_of_eyes;
 mod layouts;
 mod left_out;
 mod lookup;

@@ -235,7 +235,7 @@ fn one_eyes_part_is_never_read_at_each_fragments_own_position() {
 fn dispatch(name: &str, image: ImageIndex, write: bool) -> Pass {
     let binding = "target".into();
     let (range, span, stages) = (Subresources::WHOLE, Span::NONE, Stages::COMPUTE_SHADER);
-    let storage = vec![Storage { binding, image, range, span, read: !write, write, stages }];
+    let storage = vec![Storage { binding, image, range, span, read: !write, write, eye: None, stages }];
     let work = Work::Dispatch { shader: name.into(), groups: Groups::Count([1; 3]) };
     Pass { storage, side_effect: true, ..Pass::new(name, work) }
 }
@@ -280,18 +280,14 @@ fn sampled(frame: &mut Frame, pass: usize, at: usize) -> &mut SampledImage {
 #[test]
 fn frames_that_use_both_eyes_parts_otherwise_than_for_both_are_refused_in_words() {
     type Change = fn(&mut Frame);
-    let changes: [(&str, Change); 16] = [
-        ("`color` holds both eyes' parts, so each is flat and has one layer and one mip level", |frame| {
-            (frame.images[0].mips, frame.images[0].samples) = (2, 1);
-            frame.images[1].samples = 1;
-        }),
-        ("`noise` holds both eyes' parts, so each is flat and has one layer and one mip level", |frame| {
+    let changes: [(&str, Change); 15] = [
+        ("`noise` holds both eyes' parts, so each is flat and has one layer", |frame| {
             (frame.images[2].eyes, frame.images[2].layers) = (frame.images[0].eyes, 2);
         }),
-        ("`noise` holds both eyes' parts, so each is flat and has one layer and one mip level", |frame| {
+        ("`noise` holds both eyes' parts, so each is flat and has one layer", |frame| {
             (frame.images[2].eyes, frame.images[2].shape) = (frame.images[0].eyes, Shape::D3);
         }),
-        ("`noise` holds both eyes' parts, so each is flat and has one layer and one mip level", |frame| {
+        ("`noise` holds both eyes' parts, so each is flat and has one layer", |frame| {
             (frame.images[2].eyes, frame.images[2].shape, frame.images[2].layers) =
                 (frame.images[0].eyes, Shape::Cube, 6);
         }),
@@ -362,6 +358,68 @@ fn frames_that_use_both_eyes_parts_otherwise_than_for_both_are_refused_in_words(
         }
     }
     assert!(missed.is_empty(), "{}", missed.join("\n"));
+}
+
+/// What changes color and depth to single samples, and color to two mip levels.
+fn with_levels(frame: &mut Frame) {
+    (frame.images[0].mips, frame.images[0].samples, frame.images[1].samples) = (2, 1, 1);
+    let part = Subresources { mips: 1, ..Subresources::WHOLE };
+    (frame.passes[1].color[0].range, frame.passes[2].sampled[0].range) = (part, part);
+}
+
+#[test]
+fn layers_have_mip_levels_and_halves_do_not() {
+    for (stereo, form) in MODES {
+        let mut frame = frame(stereo, form);
+        with_levels(&mut frame);
+        match form {
+            EyeForm::Layers => {
+                assert_eq!((verify(&compiled(&frame)), image(&compiled(&frame), "color").mips), (vec![], 2))
+            }
+            EyeForm::Halves => {
+                let said = refused(&frame);
+                assert!(
+                    said.contains("`color` holds both eyes' parts side by side, so it has one mip level"),
+                    "{said}"
+                );
+            }
+        }
+    }
+}
+
+/// Adds what a compute pass stores into `stored`, for one eye after the other, and what samples it for both.
+fn stored_by_layer(frame: &mut Frame) {
+    let image = ImageIndex(4);
+    frame.images.push(Image { eyes: frame.images[0].eyes, ..Image::new("stored", R16G16B16A16_SFLOAT, 64, 64) });
+    for eye in Eye::BOTH {
+        let mut pass = dispatch(&eye.named("store"), image, true);
+        (pass.storage[0].eye, pass.storage[0].read, pass.side_effect) = (Some(eye), eye == Eye::Right, false);
+        frame.passes.insert(2, pass);
+    }
+    frame.passes.swap(2, 3);
+    let more = SampledImage { binding: "more".into(), image, ..frame.passes[4].sampled[0].clone() };
+    frame.passes[4].sampled.push(more);
+}
+
+#[test]
+fn a_compute_pass_stores_into_one_eyes_layer_and_no_half() {
+    for (stereo, form) in MODES {
+        let mut frame = frame(stereo, form);
+        stored_by_layer(&mut frame);
+        if form == EyeForm::Halves {
+            let said = refused(&frame);
+            assert!(said.contains("`store (left)` accesses as storage `stored`"), "{said}");
+            continue;
+        }
+        let plan = compiled(&frame);
+        assert_eq!(verify(&plan), [], "{}", plan.tree());
+        let tree = plan.tree();
+        assert!(tree.contains("target = `stored`, the left eye's") && tree.contains("the right eye's"), "{tree}");
+        // What both share has no eye.
+        frame.passes[2].storage[0].image = NOISE;
+        let said = refused(&frame);
+        assert!(said.contains("`store (left)` accesses one eye's layer of `noise`"), "{said}");
+    }
 }
 
 #[test]

@@ -104,7 +104,8 @@ fn what_is_promised_outside_keeps_its_format() {
             frame.images[1].samples = 1;
             let image = ImageIndex(0);
             let (range, span, stages) = (Subresources::WHOLE, Span::NONE, Stages::FRAGMENT_SHADER);
-            let storage = Storage { binding: "b".into(), image, range, span, read: true, write: false, stages };
+            let storage =
+                Storage { binding: "b".into(), image, range, span, read: true, write: false, eye: None, stages };
             frame.passes[1].storage.push(storage);
         },
     ];

@@ -161,6 +161,7 @@ impl Maker {
                 span: Span::NONE,
                 read,
                 write: !read || self.one_in(2),
+                eye: None,
                 stages: Stages::COMPUTE_SHADER,
             });
         }

@@ -102,8 +102,16 @@ fn a_texture_is_only_sampled() {
     };
     let whole = Subresources::WHOLE;
     let (binding, image, span) = ("grain".into(), ImageIndex(0), Span::NONE);
-    let stored =
-        Storage { binding, image, range: whole, span, read: true, write: false, stages: Stages::FRAGMENT_SHADER };
+    let stored = Storage {
+        binding,
+        image,
+        range: whole,
+        span,
+        read: true,
+        write: false,
+        eye: None,
+        stages: Stages::FRAGMENT_SHADER,
+    };
     only_sampled(refused(|frame| frame.passes[0].storage.push(stored)), "film");
     only_sampled(refused(|frame| frame.passes[0].color[0].image = image), "film");
     let forward = Work::Forward { from: image, to: ImageIndex(1), because: "grain = false".to_owned() };

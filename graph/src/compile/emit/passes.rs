@@ -5,7 +5,7 @@ use crate::compile::adapt::has_samples;
 use crate::compile::model::{Kind, Op, OpKind, ResolveShader, Role, Use};
 use crate::frame::{
     Access as FrameAccess, Blend, ColorTarget, DepthTarget, Draw, Groups, ParamValue, Pass as FramePass, RasterState,
-    SampledImage, ViewIndex, Work as FrameWork,
+    SampledImage, Storage, ViewIndex, Work as FrameWork,
 };
 use crate::plan::{
     Access, Binding, BindingKind, BufferAccess, BufferId, Cause, DepthState, Fill, ImageId, Param, Pass, Side,
@@ -282,23 +282,22 @@ fn bare(name: Arc<str>, cause: Cause, draw: Option<Draw>, groups: Option<Groups>
 /// The access to an image by the pass that declares it.
 fn declared_access(results: &StageResults<'_>, used: &Use, declared: &FramePass) -> Access {
     let entry = used.entry as usize;
-    let mut eye = None;
     let bound = |name: &Arc<str>, kind, texture| Some(Binding { name: name.clone(), kind, texture });
-    let mut of_sampled = |sampled: &SampledImage| {
+    let of_sampled = |sampled: &SampledImage| {
         let texture = sampled.texture.map(|texture| adapted(results, used, texture));
-        eye = sampled.eye;
-        bound(&sampled.binding, BindingKind::Sampled(sampled.sampler), texture)
+        (bound(&sampled.binding, BindingKind::Sampled(sampled.sampler), texture), sampled.eye)
     };
-    let binding = match used.role {
-        Role::Declared => declared.accesses().nth(entry).and_then(|named| match named {
-            FrameAccess::Sampled(sampled) => of_sampled(sampled),
-            FrameAccess::Storage(storage) => bound(&storage.binding, BindingKind::Storage, None),
-            _ => None,
-        }),
+    let of_storage = |storage: &Storage| (bound(&storage.binding, BindingKind::Storage, None), storage.eye);
+    let (binding, eye) = match used.role {
+        Role::Declared => match declared.accesses().nth(entry) {
+            Some(FrameAccess::Sampled(sampled)) => of_sampled(sampled),
+            Some(FrameAccess::Storage(storage)) => of_storage(storage),
+            _ => (None, None),
+        },
         Role::Sampled => of_sampled(&declared.sampled[entry]),
-        Role::Input => bound(&declared.sampled[entry].binding, BindingKind::InputAttachment, None),
-        Role::Storage => bound(&declared.storage[entry].binding, BindingKind::Storage, None),
-        Role::Color | Role::Depth | Role::Stencil | Role::Buffer | Role::Source | Role::Target => None,
+        Role::Input => (bound(&declared.sampled[entry].binding, BindingKind::InputAttachment, None), None),
+        Role::Storage => of_storage(&declared.storage[entry]),
+        Role::Color | Role::Depth | Role::Stencil | Role::Buffer | Role::Source | Role::Target => (None, None),
     };
     Access { eye, declared: used.role.is_declared(), ..access(results, used, binding) }
 }

@@ -210,12 +210,13 @@ fn same_sampled(old: &SampledImage, new: &SampledImage) -> bool {
 }
 
 fn same_storage(old: &Storage, new: &Storage) -> bool {
-    let Storage { binding, image, range, span, read, write, stages } = new;
+    let Storage { binding, image, range, span, read, write, eye, stages } = new;
     old.image == *image
         && old.range == *range
         && old.span == *span
         && old.read == *read
         && old.write == *write
+        && old.eye == *eye
         && old.stages == *stages
         && same_name(&old.binding, binding)
 }

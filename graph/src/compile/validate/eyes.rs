@@ -16,8 +16,10 @@ pub(super) fn image_problem(image: &Image, stereo: Stereo) -> Option<String> {
     };
     if !fits {
         Some(format!("holds both eyes' parts, which isn't how the frame is drawn for two eyes ({})", stereo.name()))
-    } else if image.shape != Shape::D2 || image.layers > 1 || image.mips > 1 {
-        Some("holds both eyes' parts, so each is flat and has one layer and one mip level".to_owned())
+    } else if image.shape != Shape::D2 || image.layers > 1 {
+        Some("holds both eyes' parts, so each is flat and has one layer".to_owned())
+    } else if form == EyeForm::Halves && image.mips > 1 {
+        Some("holds both eyes' parts side by side, so it has one mip level".to_owned())
     } else {
         None
     }
@@ -39,8 +41,16 @@ pub(super) fn pass(frame: &Frame, pass: &Pass, errors: &mut Vec<Diagnostic>) {
         wrong(image, pass.span, "is recorded by a program that doesn't say `both_eyes`, and draws into");
     }
     let (draws, own) = (pass.work.is_draw(), target.is_some() || pass.both_eyes);
-    for storage in pass.storage.iter().filter(|it| eyes(it.image).is_some() && (draws || !pass.both_eyes)) {
-        wrong(storage.image, storage.span, "accesses as storage");
+    let dispatch = pass.work.groups().is_some();
+    for storage in &pass.storage {
+        let wrong_so = match (eyes(storage.image), storage.eye) {
+            (None, None) => continue,
+            (None, Some(_)) => "accesses one eye's layer of",
+            (Some(EyeForm::Layers), Some(_)) if dispatch => continue,
+            (Some(_), _) if !draws && pass.both_eyes => continue,
+            (Some(_), _) => "accesses as storage",
+        };
+        wrong(storage.image, storage.span, wrong_so);
     }
     for sampled in pass.sampled.iter().filter(|it| eyes(it.image).is_some() && it.eye.is_none() && !own) {
         wrong(sampled.image, sampled.span, "draws for one eye and doesn't say which it samples of");

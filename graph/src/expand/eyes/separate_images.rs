@@ -1,7 +1,8 @@
 //! Which images hold both eyes' parts in one, so that a pass can draw both at once.
 //!
 //! Only draws, fills and copies of whole images work for both eyes at once. An image that other work makes, or reads
-//! otherwise than by sampling, is there for each eye; so is every image that is drawn from such an image, or beside it.
+//! otherwise than by sampling, is there for each eye; so is every image that is drawn from such an image, or beside it. Where each
+//! eye has a layer, a compute pass reaches that of its eye, and the image stays one for both.
 
 use super::Eyes;
 use super::pass_eyes::PassEyes;
@@ -15,6 +16,7 @@ use std::sync::Arc;
 
 /// The images that can't hold both eyes' parts. By image, the reason; `None`: it can, or both eyes share the image.
 pub(super) struct SeparateImages {
+    form: EyeForm,
     why: Vec<Option<String>>,
 }
 
@@ -27,13 +29,15 @@ impl SeparateImages {
         eyes: &Eyes<'_>,
         form: EyeForm,
     ) -> SeparateImages {
-        let why = pipeline.images.iter().zip(own).map(|(image, own)| own.then(|| by_itself(image)).flatten());
-        let mut apart = SeparateImages { why: why.collect() };
+        let why = pipeline.images.iter().zip(own).map(|(image, own)| own.then(|| by_itself(image, form)).flatten());
+        let mut apart = SeparateImages { form, why: why.collect() };
         let running = || pipeline.passes.iter().zip(whose).filter(|(pass, _)| pass.off.is_none());
         for (pass, whose) in running() {
             let name = &pass.name.text;
             let own_part = |part: &&ImagePart| own[index(part.image.index)];
-            for part in used_by_texels(pass, may_be_at_once(pass, *whose)).filter(own_part) {
+            let by_layer = form == EyeForm::Layers && *whose == PassEyes::Each;
+            let beyond = |part: &&ImagePart| !(by_layer && reaches_a_layer(pass, part));
+            for part in used_by_texels(pass, may_be_at_once(pass, *whose)).filter(own_part).filter(beyond) {
                 apart.part(part.image.index, || format!("`{name}` uses it otherwise than by sampling or drawing"));
             }
             for part in written(pass).filter(own_part).filter(|part| part.eye.is_some() || *whose != PassEyes::Each) {
@@ -51,6 +55,10 @@ impl SeparateImages {
             for sample in elements.filter(|sample| own_part(&&sample.part)) {
                 apart.part(sample.part.image.index, || format!("`{name}` samples it as an element of an array"));
             }
+            let stored = pass.storage.iter().filter(|storage| element_of(&storage.binding.text).is_some());
+            for part in stored.filter_map(|storage| image(&storage.part)).filter(own_part) {
+                apart.part(part.image.index, || format!("`{name}` accesses it as an element of an array"));
+            }
             if let Some([Part::Image(from), Part::Image(to)]) = pass.work.copied()
                 && own[index(to.image.index)]
                 && !own[index(from.image.index)]
@@ -60,7 +68,7 @@ impl SeparateImages {
             if *whose == PassEyes::Each
                 && let Some(why) = only_one_by_one(pass, eyes)
             {
-                apart.all(written(pass).filter(own_part), &format!("`{name}` {why}"));
+                apart.all(written(pass).filter(own_part).filter(beyond), &format!("`{name}` {why}"));
             }
         }
         while apart.spread(pipeline, own, running()) {}
@@ -115,7 +123,10 @@ impl SeparateImages {
                 let image = &pipeline.images[index(cause.image.index)].name.text;
                 let why =
                     format!("`{}` draws it for one eye after the other, as it does with `{image}`", pass.name.text);
-                found |= self.all(written(pass).chain(used_by_texels(pass, false)).filter(is_own), &why);
+                let by_layer = self.form == EyeForm::Layers;
+                let beyond = |part: &&ImagePart| !(by_layer && reaches_a_layer(pass, part));
+                let drawn = written(pass).chain(used_by_texels(pass, false)).filter(is_own).filter(beyond);
+                found |= self.all(drawn, &why);
             }
         }
         // The stand-in of a pass that is off forwards one image for both eyes, or an image for each.
@@ -141,11 +152,11 @@ fn index(image: ImageIndex) -> usize {
 }
 
 /// Why an image can't hold both eyes' parts, apart from its use by passes.
-fn by_itself(image: &Image) -> Option<String> {
+fn by_itself(image: &Image, form: EyeForm) -> Option<String> {
     let what = match () {
         () if image.shape.value != ImageShape::D2 => "it isn't flat",
         () if !matches!(image.layers.value, Layers::Default | Layers::Count(1)) => "it has layers of its own",
-        () if image.mips.value != Mips::Count(1) => "it has mip levels",
+        () if form == EyeForm::Halves && image.mips.value != Mips::Count(1) => "it has mip levels",
         () if matches!(image.lifetime.value, Lifetime::File(_)) => "it comes from a file",
         () => return None,
     };
@@ -213,6 +224,18 @@ fn used_by_texels(pass: &Pass, at_once: bool) -> impl Iterator<Item = &ImagePart
         Use::Sampled | Use::LeftOut | Use::Uniform | Use::Drawn | Use::Counts | Use::Measured | Use::Target => false,
     };
     pass.image_parts().filter(move |(part, of)| used(part, *of)).map(|(part, _)| part)
+}
+
+/// Whether a pass that runs for one eye accesses only that eye's layer of an image here. What it replaces while it reads it may go on in
+/// another image, which then lacks the other eye's layer.
+fn reaches_a_layer(pass: &Pass, part: &ImagePart) -> bool {
+    let again = |other: &ImagePart| other.image.index == part.image.index && !std::ptr::eq(other, part);
+    let level = |part: &ImagePart| part.mips.first.filter(|_| part.mips.count.is_none()).map(|level| level.value);
+    let elsewhere = |other: &ImagePart| {
+        other.previous.is_some() || level(part).zip(level(other)).is_some_and(|(one, another)| one != another)
+    };
+    let mut others = pass.image_parts().filter(|(other, of)| *of != Use::Measured && again(other));
+    pass.work.is_dispatch() && !is_part(part) && others.all(|(other, _)| elsewhere(other))
 }
 
 fn whole(part: &Part) -> bool {

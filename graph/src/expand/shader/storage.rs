@@ -4,7 +4,7 @@ use super::interfaces::{declared_otherwise, shape_words};
 use super::{arrays, parts_in_use, sampled_images};
 use crate::base::{Code, Diagnostic, Span, nearest, suggestion};
 use crate::expand::resources::{Resources, parts};
-use crate::frame::{BufferRole, BufferUse, Image, Pass, Resource, Storage};
+use crate::frame::{BufferRole, BufferUse, Eye, Image, Pass, Resource, Storage};
 use crate::language::{self, Part};
 use crate::ron::Name;
 use crate::shader::{Binding, BindingKind, PARAMS, PASS_SET, ShaderInterface};
@@ -90,7 +90,11 @@ pub(in crate::expand) fn lower(
         Part::Image(part) => {
             let range = parts::range(resources, part, errors);
             let (image, span) = (part.image.index, part.image.span);
-            lowered.storage.push(Storage { binding, image, range, span, read, write, stages });
+            let one_for_both = resources.image(image).is_some_and(|image| image.image.eyes.is_some());
+            let eye = part.eye.filter(|_| one_for_both).map(|eye| eye.value);
+            // The left eye's pass runs just before, and what it wrote into its own layer stays.
+            let read = read || write && eye == Some(Eye::Right);
+            lowered.storage.push(Storage { binding, image, range, span, read, write, eye, stages });
         }
     }
 }

@@ -60,5 +60,5 @@ pub(crate) fn device() -> Profile {
 /// All of an image, written as storage by a compute shader: whole, or on top of what it reads.
 pub(crate) fn stored(binding: impl Into<Arc<str>>, image: ImageIndex, read: bool) -> Storage {
     let (range, span, stages) = (Subresources::WHOLE, Span::NONE, Stages::COMPUTE_SHADER);
-    Storage { binding: binding.into(), image, range, span, read, write: true, stages }
+    Storage { binding: binding.into(), image, range, span, read, write: true, eye: None, stages }
 }

@@ -5,12 +5,13 @@ use framewright_graph::base::Span;
 use framewright_graph::compile::{Options, compile};
 use framewright_graph::device::MemoryEstimate;
 use framewright_graph::frame::{
-    Blend, Draw, Eye, EyeForm, Image, ImageIndex, Pass, Resource, Stereo, TransferUse, Work as Described,
+    Blend, Draw, Eye, EyeForm, Groups, Image, ImageIndex, Pass, Resource, Stereo, Storage, TransferUse,
+    Work as Described,
 };
 use framewright_graph::plan::{Plan, RenderScope, Side, Transfer, Work};
 use framewright_graph::verify::verify;
 use framewright_graph::vulkan::Format::{R8G8B8A8_SRGB, R16G16B16A16_SFLOAT};
-use framewright_graph::vulkan::{Accesses, Filter, Shape, Subresources};
+use framewright_graph::vulkan::{Accesses, Filter, Layout, Shape, Subresources};
 
 /// `color`, multisampled, and `screen` hold both eyes' parts, as does `kept`, a copy of `screen`; `mirror` shows the right eye's.
 fn plan(stereo: Stereo, form: EyeForm) -> Plan {
@@ -95,13 +96,6 @@ const CHANGES: &[(Change, &str)] = &[
         |plan| {
             let at = image(plan, "kept");
             plan.images[at].layers = 2;
-        },
-        "`kept`: holds both eyes' parts, which aren't flat or have layers of their own",
-    ),
-    (
-        |plan| {
-            let at = image(plan, "kept");
-            plan.images[at].mips = 2;
         },
         "`kept`: holds both eyes' parts, which aren't flat or have layers of their own",
     ),
@@ -261,5 +255,67 @@ fn what_the_program_does_not_record_for_both_eyes_is_found() {
         assert!(outside_of_one.contains("and a pass accesses it as one"), "{stereo:?}: {outside_of_one}");
         let of_none = said(&|plan| custom(plan, &|pass| pass.accesses[0].eye = Some(Eye::Left)));
         assert!(of_none.contains("is recorded for both eyes, and touches nothing that holds"), "{stereo:?}: {of_none}");
+    }
+}
+
+/// `stored` is written by a compute pass of each eye, and `screen` is drawn from it.
+fn stored_by_layer(stereo: Stereo) -> Plan {
+    let mut raster = Raster::default();
+    let stored = raster.image("stored", R16G16B16A16_SFLOAT, 1);
+    let screen = raster.image("screen", R8G8B8A8_SRGB, 1);
+    raster.full_screen("show").sample(stored).color(screen, Blend::Replace);
+    let mut frame = raster.output(screen);
+    frame.stereo = stereo;
+    frame.images.iter_mut().for_each(|image: &mut Image| image.eyes = Some(EyeForm::Layers));
+    let store = |eye: Eye| {
+        let work = Described::Dispatch { shader: "store".into(), groups: Groups::Count([1; 3]) };
+        let storage = Storage { eye: Some(eye), ..crate::testing::parts::stored("target", stored, eye == Eye::Right) };
+        Pass { storage: vec![storage], ..Pass::new(eye.named("store"), work) }
+    };
+    frame.passes.splice(0..0, Eye::BOTH.map(store));
+    let device = raster::device();
+    let plan = compile(&frame, &device, &mut MemoryEstimate(&device), &Options::default()).expect("the frame is valid");
+    assert_eq!(verify(&plan), [], "{}", plan.tree());
+    plan
+}
+
+#[test]
+fn a_layer_that_no_compute_pass_has_written_is_found_where_it_is_read() {
+    let stores = |plan: &mut Plan, change: &mut dyn FnMut(&mut framewright_graph::plan::Step)| {
+        plan.steps.iter_mut().filter(|step| matches!(step.work, Work::Dispatch(_))).for_each(change);
+    };
+    let eye = |step: &mut framewright_graph::plan::Step, eye| step.work.passes_mut()[0].accesses[0].eye = eye;
+    for stereo in [Stereo::Instanced, Stereo::Multiview] {
+        let right = stored_by_layer(stereo);
+        let said = |change: &dyn Fn(&mut Plan)| {
+            let mut plan = right.clone();
+            change(&mut plan);
+            verify(&plan).iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+        };
+        let missing = "`stored`: is read, and nothing has written the layer of the";
+        let left_twice = said(&|plan| stores(plan, &mut |step| eye(step, Some(Eye::Left))));
+        assert!(left_twice.contains(&format!("{missing} right eye")), "{stereo:?}: {left_twice}");
+        // What the second one forgets is the first one's layer.
+        let forgotten = said(&|plan| {
+            let barriers = plan.steps.iter_mut().flat_map(|step| &mut step.image_barriers);
+            barriers.filter(|barrier| barrier.image.0 == 0).for_each(|barrier| barrier.old_layout = Layout::Undefined);
+        });
+        assert!(forgotten.contains(&format!("{missing} left eye")), "{stereo:?}: {forgotten}");
+        let unsaid = said(&|plan| stores(plan, &mut |step| eye(step, None)));
+        assert!(unsaid.contains("`stored`: holds both eyes' parts, and a pass accesses it as one"), "{unsaid}");
+        let in_halves = said(&|plan| plan.images[0].eyes = Some(EyeForm::Halves));
+        assert!(in_halves.contains("`stored`: holds both eyes' parts, and a pass accesses it as one"), "{in_halves}");
+    }
+}
+
+#[test]
+fn mip_levels_of_halves_are_found() {
+    for (stereo, form) in MODES {
+        let mut plan = plan(stereo, form);
+        let at = image(&plan, "kept");
+        plan.images[at].mips = 2;
+        let said: Vec<String> = verify(&plan).iter().map(ToString::to_string).collect();
+        let expected = "`kept`: holds both eyes' parts side by side, and has mip levels";
+        assert_eq!(said.iter().any(|it| it.contains(expected)), form == EyeForm::Halves, "{said:#?}");
     }
 }

@@ -12,7 +12,7 @@ fn what_a_compute_shader_writes_is_made_for_one_eye_after_the_other() {
     let write = r#"(name: "write", dispatch: "halve", groups: Texels("own"), sample: {"source": "color"},
                     storage: {"target": "own"}, side_effect: true),"#;
     let why = "`write` uses it otherwise than by sampling or drawing";
-    for frame in fall_apart(ALL, image, write, &[("own", why)]) {
+    for frame in fall_apart(IN_HALVES, image, write, &[("own", why)]) {
         assert_eq!(passes(&frame), ["noise", "opaque", "show", "write (left)", "write (right)"]);
         // It samples the part of its eye of what is one for both.
         for (name, eye, view) in [("write (left)", Eye::Left, 1), ("write (right)", Eye::Right, 2)] {
@@ -22,6 +22,37 @@ fn what_a_compute_shader_writes_is_made_for_one_eye_after_the_other() {
             assert_eq!(*target, eye.named("own"));
         }
     }
+    // In layers the image stays one for both, and each eye's pass writes its layer.
+    for frame in fall_apart(&[Stereo::Multiview], image, write, &[]) {
+        assert_eq!(passes(&frame), ["noise", "opaque", "show", "write (left)", "write (right)"]);
+        let [left, right] = ["write (left)", "write (right)"].map(|name| &pass(&frame, name).storage[0]);
+        assert_eq!((left.image, left.eye, right.eye), (right.image, Some(Eye::Left), Some(Eye::Right)));
+        assert_eq!((left.write, left.read), (true, false));
+        assert_eq!((right.write, right.read), (true, true), "the left eye's layer is kept");
+    }
+}
+
+#[test]
+fn what_is_drawn_from_what_a_compute_shader_writes_is_drawn_for_both_eyes_at_once_in_layers() {
+    let images = r#"(name: "own", format: R16G16B16A16_SFLOAT, size: Like("color")),
+                    (name: "second", format: Color(hdr: true), size: Like("color")),"#;
+    let more = r#"(name: "write", dispatch: "halve", groups: Texels("own"), sample: {"source": "color"},
+                   storage: {"target": (image: "own", access: Write)}),
+                  (name: "from", draw: FullScreen("reinhard"), sample: {"source": "own"}, color: ["second"], side_effect: true),"#;
+    for frame in fall_apart(&[Stereo::Multiview], images, more, &[]) {
+        assert_eq!(passes(&frame), ["noise", "opaque", "show", "write (left)", "write (right)", "from"]);
+        assert_eq!(pass(&frame, "from").sampled[0].eye, None, "each eye's part");
+    }
+}
+
+#[test]
+fn what_a_compute_shader_replaces_while_it_samples_it_is_there_for_each_eye() {
+    let image = r#"(name: "own", format: R16G16B16A16_SFLOAT, size: Like("color")),"#;
+    let more = r#"(name: "clear", fill: (to: "own", value: (0.0, 0.0, 0.0, 0.0))),
+                  (name: "write", dispatch: "halve", groups: Texels("own"), sample: {"source": "own"},
+                   storage: {"target": (image: "own", access: Write)}, side_effect: true),"#;
+    let why = "`write` uses it otherwise than by sampling or drawing";
+    fall_apart(ALL, image, more, &[("own", why)]);
 }
 
 #[test]
@@ -82,8 +113,11 @@ fn what_is_copied_from_images_apart_or_from_what_both_share_is_there_for_each_ey
                   (name: "copy", copy: (from: "own", to: "second"), side_effect: true),"#;
     let write = ("own", "`write` uses it otherwise than by sampling or drawing");
     let copied = ("second", "`copy` draws it for one eye after the other, as it does with `own`");
-    for frame in fall_apart(ALL, images, more, &[write, copied]) {
+    for frame in fall_apart(IN_HALVES, images, more, &[write, copied]) {
         assert_eq!(passes(&frame)[5..], ["copy (left)", "copy (right)"]);
+    }
+    for frame in fall_apart(&[Stereo::Multiview], images, more, &[]) {
+        assert_eq!(passes(&frame)[3..], ["write (left)", "write (right)", "copy"]);
     }
     let shared = r#"(name: "copy", copy: (from: "noise", to: "own"), side_effect: true),"#;
     for frame in fall_apart(ALL, OWN, shared, &[("own", "`copy` copies to it what both eyes share")]) {
@@ -139,7 +173,7 @@ fn what_is_drawn_for_one_eye_only_is_there_for_each() {
 }
 
 #[test]
-fn what_is_not_a_flat_image_of_one_layer_and_one_mip_level_is_there_for_each_eye() {
+fn what_is_not_a_flat_image_of_one_layer_and_in_halves_of_one_mip_level_is_there_for_each_eye() {
     let cases = [
         (r#"mips: Full"#, "it has mip levels"),
         (r#"mips: 2"#, "it has mip levels"),
@@ -154,8 +188,13 @@ fn what_is_not_a_flat_image_of_one_layer_and_one_mip_level_is_there_for_each_eye
             r#""own""#
         };
         let paint = format!(r#"(name: "paint", draw: FullScreen("plain"), color: [{target}]),"#);
-        for frame in fall_apart(ALL, &image, &paint, &[("own", why)]) {
+        let has_mips = what.starts_with("mips");
+        for frame in fall_apart(if has_mips { IN_HALVES } else { ALL }, &image, &paint, &[("own", why)]) {
             assert_eq!(passes(&frame)[3..], ["paint (left)", "paint (right)"], "{what}");
+        }
+        if has_mips {
+            let frame = &fall_apart(&[Stereo::Multiview], &image, &paint, &[])[0];
+            assert_eq!(passes(frame)[3..], ["paint"], "{what}: each layer has its levels");
         }
     }
     let deep = r#"(name: "own", format: Color(hdr: true), size: Fixed(8, 8), shape: D3(8), per_eye: true),"#;
