@@ -32,6 +32,7 @@ mod held;
 mod hlsl_vertices;
 mod image_arrays;
 mod imports;
+mod imports_in_flight;
 mod local_reads;
 mod outlasting;
 mod outside_owners;
