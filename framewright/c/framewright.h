@@ -161,6 +161,9 @@ typedef struct {
     // A program whose `main` calls `helper::serve`, such as the command `framewright`: shaders are compiled and drivers tested in
     // it, and can't end this one. NULL: in this process, which is for shaders and drivers that are trusted.
     const char *helper;
+    // Whether the device leaves draws and shaders unchecked: `robustBufferAccess` is off. Then no index of a draw, an indirect draw or a
+    // shader may reach beyond its buffer: for programs that draw files and shaders of their own alone. 0: it keeps them within.
+    uint32_t unchecked_bounds;
 } FramewrightDeviceOptions;
 
 // Is told a finding of the validation layer, which lives until it returns: the layer's words, behind the step and pass where the layer

@@ -23,8 +23,37 @@ pub struct DeviceOptions {
     /// The process in which the device is tested; `None`: this one. A driver that crashes in a test ends only the helper process. The
     /// helper keeps what it found for this version of the driver, and its pipelines.
     pub helper: Option<Helper>,
+    /// Whether the device keeps draws and shaders within their buffers; by default it does.
+    pub bounds: BufferBounds,
     /// The display whose windows pictures are shown in, for [`Device::surface`]; `None`: nothing is shown.
     pub display: Option<RawDisplayHandle>,
+}
+
+/// Whether a device keeps draws and shaders within their buffers: `robustBufferAccess`.
+///
+/// Without it a device may be faster. An index beyond a buffer then reads or writes other memory, or the device is lost: a pipeline file
+/// may hold such an index as well as a shader does, and nothing looks for it. So it is for programs that draw files of their own alone.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct BufferBounds {
+    unchecked: bool,
+}
+
+impl BufferBounds {
+    /// The device keeps to them: for files and shaders of anybody.
+    pub const CHECKED: BufferBounds = BufferBounds { unchecked: false };
+
+    /// Nothing keeps to them but what is drawn.
+    ///
+    /// # Safety
+    /// On a device that is opened so no index of a draw, an indirect draw or a shader reaches beyond its buffer.
+    #[must_use]
+    pub const unsafe fn unchecked() -> BufferBounds {
+        BufferBounds { unchecked: true }
+    }
+
+    pub(super) fn are_checked(self) -> bool {
+        !self.unchecked
+    }
 }
 
 /// An open device. Clones share it; it closes when the last clone and the last thing made from it are gone.
@@ -66,7 +95,7 @@ impl Device {
             return Err(Error::Lacking { device: summary.name, missing: summary.missing });
         }
         let helper = options.helper.clone();
-        let gpu = Gpu::open(instance, physical, summary, helper.as_ref().and_then(Helper::cache))?;
+        let gpu = Gpu::open(instance, physical, summary, options.bounds, helper.as_ref().and_then(Helper::cache))?;
         Ok(Device { gpu: Arc::new(gpu), helper, tested: Arc::default() })
     }
 
@@ -74,6 +103,12 @@ impl Device {
     #[must_use]
     pub fn summary(&self) -> &DeviceSummary {
         &self.gpu.summary
+    }
+
+    /// Whether the device keeps draws and shaders within their buffers. Of an adopted device the program has said so.
+    #[must_use]
+    pub fn bounds(&self) -> BufferBounds {
+        BufferBounds { unchecked: !self.gpu.features.bounds() }
     }
 
     /// How many pipelines were made so far. They are made with an executor, by

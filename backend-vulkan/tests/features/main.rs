@@ -13,6 +13,7 @@ mod allocations;
 mod bindless;
 mod blending;
 mod both_eyes;
+mod bounds;
 mod breadcrumbs;
 mod buffer_references;
 mod cadence;
