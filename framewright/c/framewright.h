@@ -494,6 +494,16 @@ void framewright_device_free(FramewrightDevice *device);
 FramewrightStatus framewright_device_adopt(const FramewrightAdoptedDevice *program,
                                            FramewrightDevice **device);
 
+// Opens a device of a program's physical device, to find out what the program makes its own device with: renderers on it tell what their
+// frames use, `framewright_renderer_device_features`. It has every feature that is used, as far as the physical device has them. The
+// instance has Vulkan 1.3 as its `apiVersion`, comes from the system's loader, and outlives all that is made from the handle.
+// `instance_extensions` are those that it was created with; NULL: none. `helper` is as in FramewrightDeviceOptions.
+FramewrightStatus framewright_device_open_physical(VkInstance instance,
+                                                   const FramewrightNames *instance_extensions,
+                                                   VkPhysicalDevice physical_device,
+                                                   const char *helper,
+                                                   FramewrightDevice **device);
+
 // Tells with which features and extensions the program makes a device that the library is to use: those that
 // `framewright_renderer_features` lists, or of several renderers all lists together. NULL: all that any renderer uses where the device has
 // it. It is an error if the device lacks any, or of the latter what the library needs everywhere. `robustBufferAccess` is among the latter
@@ -591,6 +601,11 @@ FramewrightStatus framewright_renderer_set_output_format(FramewrightRenderer *re
 FramewrightStatus framewright_renderer_features(FramewrightRenderer *renderer,
                                                 FramewrightFeature tell,
                                                 void *context);
+
+// Tells with which features and extensions a program makes a device of the same physical device for the next frame: those that
+// `framewright_renderer_features` tells, and no others. Freed by `framewright_features_free`.
+FramewrightStatus framewright_renderer_device_features(FramewrightRenderer *renderer,
+                                                       FramewrightFeatures **features);
 
 // Whether a file that was read is another one by now: 1, else 0.
 FramewrightStatus framewright_renderer_files_changed(FramewrightRenderer *renderer, uint32_t *changed);

@@ -1,16 +1,19 @@
 //! Choosing, opening and sharing a device.
 
 use super::dead_images::DeadImages;
+use super::device_features::DeviceFeatures;
 use super::handle::Gpu;
 use super::instance::Instance;
+use super::minimum::missing_of;
 use super::pipeline_cache::PipelineCounts;
-use super::summary::{DeviceChoice, DeviceSummary, choose, devices};
+use super::summary::{DeviceChoice, DeviceSummary, choose, devices, summary};
 use super::validation::Messages;
 use crate::base::Error;
 use crate::process::Helper;
 use ash::vk;
-use framewright_graph::device::Profile;
+use framewright_graph::device::{EVERY_PLAN_USES, Profile};
 use raw_window_handle::RawDisplayHandle;
+use std::ffi::CStr;
 use std::sync::{Arc, OnceLock};
 
 /// How to open a device.
@@ -99,6 +102,33 @@ impl Device {
         Ok(Device { gpu: Arc::new(gpu), helper, tested: Arc::default() })
     }
 
+    /// Opens a device of a program's physical device, to find out what the program makes its own device with: Plans are made on it,
+    /// [`Plan::features`](framewright_graph::plan::Plan::features) tells what they use, and [`DeviceFeatures::exactly`](crate::DeviceFeatures::exactly)
+    /// makes the chain. It has every feature that is used, as far as the physical device has them. It may be closed before the program's own device
+    /// is made. `instance_extensions` are those that the instance was created with.
+    ///
+    /// # Errors
+    /// [`Error::Lacking`] if the physical device lacks what every Plan uses.
+    ///
+    /// # Safety
+    /// `physical` belongs to `instance`, whose `apiVersion` is 1.3 or later, and which lives until everything made from the device is gone.
+    pub unsafe fn open_physical(
+        instance: &ash::Instance,
+        instance_extensions: &[&CStr],
+        physical: vk::PhysicalDevice,
+        helper: Option<Helper>,
+    ) -> Result<Device, Error> {
+        let instance = Instance::adopted(instance.clone(), instance_extensions);
+        let summary = summary(&instance, 0, physical);
+        let missing = missing_of(&instance.raw, physical, |name| EVERY_PLAN_USES.contains(&name));
+        if !missing.is_empty() {
+            return Err(Error::Lacking { device: summary.name, missing });
+        }
+        let cache = helper.as_ref().and_then(Helper::cache);
+        let gpu = Gpu::open(instance, physical, summary, BufferBounds::CHECKED, cache)?;
+        Ok(Device { gpu: Arc::new(gpu), helper, tested: Arc::default() })
+    }
+
     /// The name, properties and identity of the device.
     #[must_use]
     pub fn summary(&self) -> &DeviceSummary {
@@ -136,6 +166,16 @@ impl Device {
     #[must_use]
     pub fn raw_physical(&self) -> (&ash::Instance, vk::PhysicalDevice) {
         (&self.gpu.instance.raw, self.gpu.physical)
+    }
+
+    /// What a program makes a device of the same physical device with that has these features alone: see [`DeviceFeatures::exactly`].
+    ///
+    /// # Errors
+    /// Those of [`DeviceFeatures::exactly`].
+    pub fn exact_features(&self, names: &[&str]) -> Result<DeviceFeatures, Error> {
+        let (instance, physical) = self.raw_physical();
+        // SAFETY: the physical device belongs to the instance, which is one of Vulkan 1.3.
+        unsafe { DeviceFeatures::exactly(instance, physical, names) }
     }
 
     /// The index of the queue family that frames are submitted to. Unless the device was adopted, its queue number 0 is used. Command

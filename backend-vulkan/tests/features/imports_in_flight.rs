@@ -133,7 +133,8 @@ fn do_11_imports_without_a_frame_between_them_keep_no_more_memory() {
         let waits = [begin.at(1)];
         sampling.write_image("shared", Aspects::COLOR, 0, &to_bytes(&[1, 2, 3, 4])).expect("it fits");
         // SAFETY: the timeline lives until the frame is waited for.
-        let held = unsafe { sampling.submit_with(&mut Nothing, &Submission { waits: &waits, ..Submission::default() }) };
+        let held =
+            unsafe { sampling.submit_with(&mut Nothing, &Submission { waits: &waits, ..Submission::default() }) };
         // SAFETY: as above.
         let mut import = |count: usize| unsafe {
             (0..count).for_each(|number| sampling.import_image("shared", own[number % 2].0).expect("it is external"));
