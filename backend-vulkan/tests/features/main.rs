@@ -34,6 +34,7 @@ mod hlsl_vertices;
 mod image_arrays;
 mod imports;
 mod imports_in_flight;
+mod indirect_draws;
 mod local_reads;
 mod outlasting;
 mod outside_owners;
