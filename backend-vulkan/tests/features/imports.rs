@@ -57,7 +57,7 @@ fn imported(name: &str, before: State, after: Option<State>) -> Image {
 }
 
 /// Draws numbers into the imported image `shared`, and leaves it to be sampled.
-fn drawn_into() -> Frame {
+pub(crate) fn drawn_into() -> Frame {
     let mut small = Small::default();
     let shared = small.image_like(imported("shared", UNKNOWN, Some(SAMPLED)));
     small.pass(draw("number", Draw::FullScreen).draws(shared, WHOLE, None));

@@ -2,13 +2,14 @@
 //! frames that use it are done.
 
 use crate::foreign::{destroy_buffer, destroy_image, own_buffer, own_image};
-use crate::frames::{library, on_each_driver, planned, texels, to_bytes, words};
-use crate::imports::{SHADERS, increased, sampled_from};
+use crate::frames::{frame, library, on_each_driver, planned, texels, to_bytes, words};
+use crate::imports::{SHADERS, drawn_into, increased, sampled_from};
 use crate::submitting::Semaphore;
 use crate::testing::Nothing;
 use framewright_graph::compile::Options;
 use framewright_graph::frame::Frame;
 use framewright_graph::vulkan::Aspects;
+use framewright_vulkan::ash::vk;
 use framewright_vulkan::{Device, Executor, ExecutorOptions, Submission};
 use std::time::Duration;
 
@@ -25,6 +26,14 @@ fn executor(device: &Device, frame: &Frame) -> Executor {
         ..ExecutorOptions::default()
     };
     Executor::new(device, &planned(device, frame, &Options::default()), &mut library(SHADERS), &options).expect("valid")
+}
+
+/// Brings an image of the program's into the state that the Plan finds it in.
+fn sampled_before(device: &Device, image: vk::Image) {
+    let mut drawing = executor(device, &drawn_into());
+    // SAFETY: it is made as the Plan says, and outlives the executor.
+    unsafe { drawing.import_image("shared", image) }.expect("it is external");
+    frame(&mut drawing);
 }
 
 /// Imports something for each frame while as many frames as may be are held back by a semaphore of the program's: to wait for any of them
@@ -66,6 +75,7 @@ fn do_11_an_image_is_imported_for_each_frame_and_no_frame_is_waited_for() {
         let mut sampling = executor(device, &sampled_from());
         let mut set = executor(device, &sampled_from());
         for frame in 0..5 {
+            sampled_before(device, own[of(frame)].0);
             // SAFETY: each is made as the Plan says, and lives until the executors are dropped.
             unsafe { set.import_image("shared", own[of(frame)].0) }.expect("it is external");
             set.write_image("shared", Aspects::COLOR, 0, &to_bytes(&given(frame))).expect("it fits");
@@ -121,6 +131,7 @@ fn do_11_a_buffer_is_imported_for_each_frame_and_no_frame_is_waited_for() {
 fn do_11_imports_without_a_frame_between_them_keep_no_more_memory() {
     on_each_driver(|device| {
         let own = [own_image(device), own_image(device)];
+        own.iter().for_each(|(image, _)| sampled_before(device, *image));
         let mut sampling = executor(device, &sampled_from());
         // SAFETY: each is made as the Plan says, and lives until the executor is dropped.
         let mut import = |count: usize| unsafe {
@@ -131,7 +142,6 @@ fn do_11_imports_without_a_frame_between_them_keep_no_more_memory() {
         assert_eq!((kept.count_current, kept.bytes_current), (0, 0), "{kept:?}");
         let begin = Semaphore::timeline(device);
         let waits = [begin.at(1)];
-        sampling.write_image("shared", Aspects::COLOR, 0, &to_bytes(&[1, 2, 3, 4])).expect("it fits");
         // SAFETY: the timeline lives until the frame is waited for.
         let held =
             unsafe { sampling.submit_with(&mut Nothing, &Submission { waits: &waits, ..Submission::default() }) };
