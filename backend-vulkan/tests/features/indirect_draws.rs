@@ -132,7 +132,7 @@ fn written(small: &mut Small, case: Case) -> impl Fn(&str, Draw) -> Pass + use<>
     }
     small.pass(write);
     let indices = indexed.then(|| small.buffer("indices", 18));
-    for indices in indices {
+    if let Some(indices) = indices {
         small.pass(dispatch("indices", ONE).block("Indices", indices, (false, true)));
     }
     move |name, drawn: Draw| {
