@@ -36,6 +36,15 @@ fn sampled_before(device: &Device, image: vk::Image) {
     frame(&mut drawing);
 }
 
+/// Lets all frames go that wait for it, also when a test fails: to destroy it waits for the device.
+struct LetGo<'d>(Semaphore<'d>);
+
+impl Drop for LetGo<'_> {
+    fn drop(&mut self) {
+        self.0.signal(FRAMES + 1);
+    }
+}
+
 /// Imports something for each frame while as many frames as may be are held back by a semaphore of the program's: to wait for any of them
 /// but the oldest would never end. The host keeps no more memory from frame to frame.
 fn import_for_each_frame(
@@ -44,7 +53,8 @@ fn import_for_each_frame(
     mut import: impl FnMut(&mut Executor, u64),
     mut done: impl FnMut(&mut Executor, u64),
 ) {
-    let begin = Semaphore::timeline(device);
+    let begin = LetGo(Semaphore::timeline(device));
+    let begin = &begin.0;
     let mut draw = |executor: &mut Executor, frame: u64| {
         import(executor, frame);
         // The place of this frame is that of the oldest one, and only that one is let go.
