@@ -58,9 +58,9 @@ pub use framewright_graph::vulkan::OutsideOwner;
 /// The faces that draws leave out, and which side is the front.
 pub use framewright_graph::vulkan::{CullMode, FrontFace};
 pub use gpu::{
-    AdoptedDevice, DeadImages, Device, DeviceChoice, DeviceFeatures, DeviceOptions, DeviceSummary, LocalReads,
-    MINIMUM_VERSION, Message, MessageKind, Messages, PipelineCounts, SamplerDescriptor, ScopeFormats, Severity, layer,
-    minimum_features, optional_features, rotation_of_surface,
+    AdoptedDevice, BufferBounds, DeadImages, Device, DeviceChoice, DeviceFeatures, DeviceOptions, DeviceSummary,
+    LocalReads, MINIMUM_VERSION, Message, MessageKind, Messages, PipelineCounts, SamplerDescriptor, ScopeFormats,
+    Severity, layer, minimum_features, optional_features, rotation_of_surface,
 };
 /// The allocator of device memory, for programs whose own one serves an [adopted](AdoptedDevice) device.
 pub use gpu_allocator;

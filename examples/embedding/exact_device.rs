@@ -1,22 +1,27 @@
-use framewright::vulkan::ash::vk;
-use framewright::vulkan::{AdoptedDevice, DeviceFeatures};
+use framewright::vulkan::AdoptedDevice;
+use framewright::vulkan::ash::{self, vk};
 use framewright::{Device, Renderer, RendererOptions, Scene, SceneDrawSource, Texels};
 use std::error::Error;
 
-/// Draws a scene on a device that is made with exactly what the pipeline's frames use; `device` tells what that is.
-pub(crate) fn draw(device: &Device, scene: &Scene) -> Result<Texels, Box<dyn Error>> {
-    let used = renderer(device, scene)?.features()?;
-    for feature in &used {
+/// Draws a scene on a device of the program's that is made with exactly what the pipeline's frames use.
+pub(crate) fn draw(
+    instance: &ash::Instance,
+    physical: vk::PhysicalDevice,
+    scene: &Scene,
+) -> Result<Texels, Box<dyn Error>> {
+    // What frames use is known before the program has a device: they are planned on another one.
+    // SAFETY: the physical device belongs to the instance, which is one of Vulkan 1.3 and lives longer.
+    let planning = unsafe { Device::open_physical(instance, &[], physical, None)? };
+    let family = planning.graphics_queue_family();
+    let mut planned = renderer(&planning, scene)?;
+    for feature in planned.features()? {
         println!("{} for {}", feature.name, feature.by);
     }
-    let names: Vec<&str> = used.iter().map(|feature| feature.name).collect();
-    let (instance, physical) = device.raw_physical();
-    // SAFETY: the physical device belongs to the instance, which is one of Vulkan 1.3.
-    let mut exact = unsafe { DeviceFeatures::exactly(instance, physical, &names)? };
+    let mut exact = planned.device_features()?;
+    drop((planned, planning));
     let extensions = exact.extensions().to_vec();
     let pointers: Vec<_> = extensions.iter().map(|name| name.as_ptr()).collect();
     let mut features = exact.chain();
-    let family = device.graphics_queue_family();
     let queues = [vk::DeviceQueueCreateInfo::default().queue_family_index(family).queue_priorities(&[1.0])];
     let info = vk::DeviceCreateInfo::default().queue_create_infos(&queues).enabled_extension_names(&pointers);
     // SAFETY: the physical device has the family, the features and the extensions.

@@ -161,6 +161,9 @@ typedef struct {
     // A program whose `main` calls `helper::serve`, such as the command `framewright`: shaders are compiled and drivers tested in
     // it, and can't end this one. NULL: in this process, which is for shaders and drivers that are trusted.
     const char *helper;
+    // Whether the device leaves draws and shaders unchecked: `robustBufferAccess` is off. Then no index of a draw, an indirect draw or a
+    // shader may reach beyond its buffer: for programs that draw files and shaders of their own alone. 0: it keeps them within.
+    uint32_t unchecked_bounds;
 } FramewrightDeviceOptions;
 
 // Is told a finding of the validation layer, which lives until it returns: the layer's words, behind the step and pass where the layer
@@ -491,6 +494,16 @@ void framewright_device_free(FramewrightDevice *device);
 FramewrightStatus framewright_device_adopt(const FramewrightAdoptedDevice *program,
                                            FramewrightDevice **device);
 
+// Opens a device of a program's physical device, to find out what the program makes its own device with: renderers on it tell what their
+// frames use, `framewright_renderer_device_features`. It has every feature that is used, as far as the physical device has them. The
+// instance has Vulkan 1.3 as its `apiVersion`, comes from the system's loader, and outlives all that is made from the handle.
+// `instance_extensions` are those that it was created with; NULL: none. `helper` is as in FramewrightDeviceOptions.
+FramewrightStatus framewright_device_open_physical(VkInstance instance,
+                                                   const FramewrightNames *instance_extensions,
+                                                   VkPhysicalDevice physical_device,
+                                                   const char *helper,
+                                                   FramewrightDevice **device);
+
 // Tells with which features and extensions the program makes a device that the library is to use: those that
 // `framewright_renderer_features` lists, or of several renderers all lists together. NULL: all that any renderer uses where the device has
 // it. It is an error if the device lacks any, or of the latter what the library needs everywhere. `robustBufferAccess` is among the latter
@@ -588,6 +601,11 @@ FramewrightStatus framewright_renderer_set_output_format(FramewrightRenderer *re
 FramewrightStatus framewright_renderer_features(FramewrightRenderer *renderer,
                                                 FramewrightFeature tell,
                                                 void *context);
+
+// Tells with which features and extensions a program makes a device of the same physical device for the next frame: those that
+// `framewright_renderer_features` tells, and no others. Freed by `framewright_features_free`.
+FramewrightStatus framewright_renderer_device_features(FramewrightRenderer *renderer,
+                                                       FramewrightFeatures **features);
 
 // Whether a file that was read is another one by now: 1, else 0.
 FramewrightStatus framewright_renderer_files_changed(FramewrightRenderer *renderer, uint32_t *changed);
@@ -708,8 +726,9 @@ FramewrightStatus framewright_renderer_states(FramewrightRenderer *renderer,
                                               FramewrightState *after);
 
 // Takes images of the program's own for the external image `name`, from the next frame on: one, or several, as those of a swapchain,
-// of which each frame uses the one that it is told. They are as `framewright_renderer_image_info` says, live as long as the renderer or
-// until others are imported, and are in the state that `framewright_renderer_states` says whenever a frame begins. After
+// of which each frame uses the one that it is told. They are as `framewright_renderer_image_info` says, and are in the state that
+// `framewright_renderer_states` says whenever a frame begins. They live as long as the renderer, or until others are imported and
+// `framewright_renderer_wait` has waited for the last frame before that: nothing is waited for here. After
 // `FRAMEWRIGHT_CHANGE_PLAN` they are to be imported again: a frame is `FRAMEWRIGHT_STATUS_MISUSE` until they are.
 FramewrightStatus framewright_renderer_import_images(FramewrightRenderer *renderer,
                                                      const char *name,

@@ -59,11 +59,11 @@ pub use framewright_graph::vulkan::{Format, Rotation};
 pub use framewright_passes::draw::SceneDrawSource;
 pub use framewright_passes::scene::Scene;
 pub use framewright_vulkan::{
-    BindGroup, Buffer, BufferUsage, CullMode, CustomImage, CustomRecorder, Device, DeviceOptions, DispatchRecorder,
-    DrawSource, DynamicBuffer, Executor, ExecutorOptions, EyeTarget, FrameReport, FrontFace, Helper, IndexType,
-    LocalReads, Overlay, PrecompiledShaders, PresentMode, Presentation, ProgramBuffer, ProgramView, RawSet, Recorder,
-    Resource, SamplerDescriptor, ScopeFormats, SecondaryRecorder, SemaphorePoint, SetLayouts, ShaderCompilers,
-    ShaderLibrary, Submission, Surface, Swapchain, SwapchainOptions, Texels, Texture,
+    BindGroup, Buffer, BufferBounds, BufferUsage, CullMode, CustomImage, CustomRecorder, Device, DeviceOptions,
+    DispatchRecorder, DrawSource, DynamicBuffer, Executor, ExecutorOptions, EyeTarget, FrameReport, FrontFace, Helper,
+    IndexType, LocalReads, Overlay, PrecompiledShaders, PresentMode, Presentation, ProgramBuffer, ProgramView, RawSet,
+    Recorder, Resource, SamplerDescriptor, ScopeFormats, SecondaryRecorder, SemaphorePoint, SetLayouts,
+    ShaderCompilers, ShaderLibrary, Submission, Surface, Swapchain, SwapchainOptions, Texels, Texture,
 };
 pub use options::RendererOptions;
 pub use pipeline::{Pipeline, PlannedFrame};

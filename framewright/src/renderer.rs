@@ -12,7 +12,7 @@ use framewright_graph::language::{Document, Facts};
 use framewright_graph::plan::{Plan, UsedFeature};
 use framewright_graph::vulkan::Rotation;
 use framewright_passes::scene::Scene;
-use framewright_vulkan::{Device, DrawSource, Executor, FrameReport, RawSet, Texels};
+use framewright_vulkan::{Device, DeviceFeatures, DrawSource, Executor, FrameReport, RawSet, Texels};
 use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::path::Path;
@@ -434,6 +434,17 @@ impl Renderer {
         self.prepare()?;
         let plan = self.drawn.as_ref().map(|drawn| drawn.executor.plan());
         plan.map_or(Ok(Vec::new()), |plan| self.pipeline.features(plan))
+    }
+
+    /// Those of them as the chain of features, and the extensions, with which a program makes a device of the same physical device. Of several
+    /// renderers, or settings, take the names of all: [`DeviceFeatures::exactly`].
+    ///
+    /// # Errors
+    /// Those of [`Renderer::features`].
+    pub fn device_features(&mut self) -> Result<DeviceFeatures, Error> {
+        let used = self.features()?;
+        let names: Vec<&str> = used.iter().map(|feature| feature.name).collect();
+        Ok(self.device.exact_features(&names)?)
     }
 
     /// Its executor.

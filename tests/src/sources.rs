@@ -34,7 +34,7 @@ pub struct Kind {
 /// The enumerations.
 pub const KINDS: [Kind; 5] = [
     Kind { name: "Work", within: "", owners: &["graph/src/frame/", "graph/src/plan/"], others: 32 },
-    Kind { name: "Draw", within: "", owners: &["graph/src/frame/"], others: 13 },
+    Kind { name: "Draw", within: "", owners: &["graph/src/frame/"], others: 14 },
     Kind { name: "Role", within: "graph/src/compile/", owners: &["graph/src/compile/model.rs"], others: 10 },
     Kind { name: "BindingKind", within: "", owners: &["graph/src/shader/", "graph/src/plan/"], others: 8 },
     Kind { name: "BufferRole", within: "", owners: &["graph/src/frame/"], others: 4 },

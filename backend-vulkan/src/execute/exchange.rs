@@ -164,15 +164,17 @@ impl Executor {
         write_buffer(&self.gpu, queue, buffer, state, bytes)
     }
 
-    /// Takes the program's own image for the external image `name`, from the next frame on. Frames in flight are waited for.
+    /// Takes the program's own image for the external image `name`, from the next frame on. Nothing is waited for: frames in flight use the
+    /// image before, and what was made for it is kept until they are done.
     ///
     /// # Errors
-    /// [`Error::BadResource`] if there is no such image or the executor's own was used already; [`Error::DeviceLost`].
+    /// [`Error::BadResource`] if there is no such external image.
     ///
     /// # Safety
-    /// The image must have been made by this executor's device as the Plan describes it, its usage included, live as long
-    /// as the executor or until another one is imported, and be in the Plan's state `before` whenever a frame begins:
-    /// synchronised with the queue of the first step that touches it, and after each frame brought from the state `after`.
+    /// The image must have been made by this executor's device as the Plan describes it, its usage included, and be in the Plan's state
+    /// `before` whenever a frame begins: synchronised with the queue of the first step that touches it, and after each frame brought from
+    /// the state `after`. It must live as long as the executor, or until another one is imported and [`Executor::wait`] has waited for the
+    /// last frame before that.
     pub unsafe fn import_image(&mut self, name: &str, image: vk::Image) -> Result<(), Error> {
         // SAFETY: the caller's promise.
         unsafe { self.import_images(name, &[image]) }
@@ -180,7 +182,7 @@ impl Executor {
 
     /// Takes several images of the program's own for the external image `name`, as those of a swapchain. Each frame uses the one that
     /// [`Submission::images`](crate::Submission) chooses, the first ones the first. What a frame needs is made once for each image:
-    /// another choice costs nothing later. Frames in flight are waited for.
+    /// another choice costs nothing later. Nothing is waited for, as by [`Executor::import_image`].
     ///
     /// # Errors
     /// Those of [`Executor::import_image`]; [`Error::BadResource`] if there are no images.
@@ -193,20 +195,20 @@ impl Executor {
         if images.is_empty() {
             return Err(Error::BadResource { what: format!("no images were given for `{name}`") });
         }
-        self.frames.wait_for_all()?;
-        self.owners.retain(|(of, _)| of != name);
         self.missing.retain(|missing| missing != name);
         let descriptor = descriptor(self.plan.image(id));
         // SAFETY: the caller's promise.
         let images: Vec<_> = images.iter().map(|raw| unsafe { Image::foreign(&self.gpu, &descriptor, *raw) }).collect();
-        self.prepared.forget();
         let now = images.iter().map(|image| image.raw.as_raw()).collect();
-        self.prepared.physical.replace_images(id, images);
+        let replaced = self.prepared.replace_images(id, images);
+        let owners = self.owners.extract_if(.., |(of, _)| of == name).map(|(_, owner)| owner).collect();
+        self.retired.keep(&self.frames, Resource::Image(id), replaced, owners);
         self.note_imported(Resource::Image(id), now);
         Ok(())
     }
 
-    /// Takes the program's own buffer for the external buffer `name`, from the next frame on. Frames in flight are waited for.
+    /// Takes the program's own buffer for the external buffer `name`, from the next frame on. Nothing is waited for, as by
+    /// [`Executor::import_image`].
     ///
     /// # Errors
     /// Those of [`Executor::import_image`].
@@ -221,8 +223,8 @@ impl Executor {
     /// Takes several buffers of the program's own for the external buffer `name`, which frames use in turn: the frame of number `n`, as
     /// [`Executor::submit`] returns it, uses the one of number `n % buffers.len()`, unless
     /// [`Submission::images`](crate::Submission) chooses another one. With as many as frames may be on their way, the program writes the
-    /// one of the next frame ([`Executor::frames`]) as soon as the frame that used it last was waited for. Frames in flight are waited
-    /// for.
+    /// one of the next frame ([`Executor::frames`]) as soon as the frame that used it last was waited for. Nothing is waited for here, as by
+    /// [`Executor::import_image`].
     ///
     /// # Errors
     /// Those of [`Executor::import_image`]; [`Error::BadResource`] if there are no buffers.
@@ -236,13 +238,12 @@ impl Executor {
         if buffers.is_empty() {
             return Err(Error::BadResource { what: format!("no buffers were given for `{name}`") });
         }
-        self.frames.wait_for_all()?;
         self.missing.retain(|missing| missing != name);
         let descriptor = buffer_descriptor(plan);
         // SAFETY: the caller's promise.
         let foreign = buffers.iter().map(|raw| unsafe { RawBuffer::foreign(&self.gpu, &descriptor, *raw) });
-        self.prepared.forget();
-        self.prepared.physical.replace_buffers(id, foreign);
+        let replaced = self.prepared.replace_buffers(id, foreign);
+        self.retired.keep(&self.frames, Resource::Buffer(id), replaced, Vec::new());
         self.in_turn.retain(|(of, _)| *of != id);
         self.in_turn.push((id, buffers.len()));
         self.note_imported(Resource::Buffer(id), buffers.iter().map(|raw| raw.as_raw()).collect());

@@ -8,6 +8,7 @@ use super::initial_contents::initialise;
 use super::options::ExecutorOptions;
 use super::output_readback::OutputReadback;
 use super::ownership::Ownership;
+use super::retired::Retired;
 use super::submission::{SemaphorePoint, Submission};
 use crate::base::Error;
 use crate::gpu::{Device, Gpu, PipelineHold, ScopeFormats};
@@ -39,6 +40,8 @@ pub struct Executor {
     /// Before what it uses: dropping it waits for every frame.
     pub(crate) frames: Frames,
     pub(crate) prepared: PreparedPlan,
+    /// What the program imported before, while frames may use it.
+    pub(super) retired: Retired,
     /// What imported images belong to, by the name of the image. Dropped after the frames, and the views of the images.
     pub(crate) owners: Vec<(String, Arc<dyn Any + Send + Sync>)>,
     /// Buffers of the program's that frames use in turn, and how many there are for each.
@@ -124,6 +127,7 @@ impl Executor {
             readbacks: if options.readback { OutputReadback::all(plan, &uses)? } else { Vec::new() },
             frames: Frames::new(gpu, plan, &imports, options)?,
             prepared: PreparedPlan::new(gpu, plan, shaders, options.preparation())?,
+            retired: Retired::default(),
             sets: ProgramSets::new(shaders.draws().sets()),
             owners: Vec::new(),
             in_turn: Vec::new(),
@@ -326,6 +330,7 @@ impl Executor {
             return Err(Error::BadResource { what });
         }
         self.frames.make_room()?;
+        self.retired.let_go(&self.frames);
         self.choose_images(images)?;
         self.ready()?;
         let number = self.frames.next();
@@ -355,6 +360,7 @@ impl Executor {
     pub fn wait(&mut self, frame: u64) -> Result<(), Error> {
         let Some(own) = frame.checked_sub(self.first_frame) else { return Ok(()) };
         self.frames.wait(own)?;
+        self.retired.let_go(&self.frames);
         if self.frames.holds(own) {
             return Ok(());
         }

@@ -407,6 +407,11 @@ impl Frames {
             .try_for_each(|slot| self.slots[slot].frame.map_or(Ok(()), |(frame, _)| self.wait_until_done(frame)))
     }
 
+    /// Whether all frames before this one are known to be done.
+    pub(super) fn are_done_before(&self, frame: u64) -> bool {
+        self.slots.iter().all(|slot| slot.finished || slot.frame.is_none_or(|(number, _)| number >= frame))
+    }
+
     /// Whether a frame was submitted, and no later one has taken its place.
     pub(crate) fn holds(&self, frame: u64) -> bool {
         self.slots[self.slot_of(frame)].frame.is_some_and(|(there, _)| there == frame)

@@ -14,6 +14,7 @@ mod options;
 mod output_readback;
 mod ownership;
 mod promises;
+mod retired;
 mod submission;
 mod told_owners;
 

@@ -1,16 +1,19 @@
 //! Choosing, opening and sharing a device.
 
 use super::dead_images::DeadImages;
+use super::device_features::DeviceFeatures;
 use super::handle::Gpu;
 use super::instance::Instance;
+use super::minimum::missing_of;
 use super::pipeline_cache::PipelineCounts;
-use super::summary::{DeviceChoice, DeviceSummary, choose, devices};
+use super::summary::{DeviceChoice, DeviceSummary, choose, devices, summary};
 use super::validation::Messages;
 use crate::base::Error;
 use crate::process::Helper;
 use ash::vk;
-use framewright_graph::device::Profile;
+use framewright_graph::device::{EVERY_PLAN_USES, Profile};
 use raw_window_handle::RawDisplayHandle;
+use std::ffi::CStr;
 use std::sync::{Arc, OnceLock};
 
 /// How to open a device.
@@ -23,8 +26,37 @@ pub struct DeviceOptions {
     /// The process in which the device is tested; `None`: this one. A driver that crashes in a test ends only the helper process. The
     /// helper keeps what it found for this version of the driver, and its pipelines.
     pub helper: Option<Helper>,
+    /// Whether the device keeps draws and shaders within their buffers; by default it does.
+    pub bounds: BufferBounds,
     /// The display whose windows pictures are shown in, for [`Device::surface`]; `None`: nothing is shown.
     pub display: Option<RawDisplayHandle>,
+}
+
+/// Whether a device keeps draws and shaders within their buffers: `robustBufferAccess`.
+///
+/// Without it a device may be faster. An index beyond a buffer then reads or writes other memory, or the device is lost: a pipeline file
+/// may hold such an index as well as a shader does, and nothing looks for it. So it is for programs that draw files of their own alone.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct BufferBounds {
+    unchecked: bool,
+}
+
+impl BufferBounds {
+    /// The device keeps to them: for files and shaders of anybody.
+    pub const CHECKED: BufferBounds = BufferBounds { unchecked: false };
+
+    /// Nothing keeps to them but what is drawn.
+    ///
+    /// # Safety
+    /// On a device that is opened so no index of a draw, an indirect draw or a shader reaches beyond its buffer.
+    #[must_use]
+    pub const unsafe fn unchecked() -> BufferBounds {
+        BufferBounds { unchecked: true }
+    }
+
+    pub(super) fn are_checked(self) -> bool {
+        !self.unchecked
+    }
 }
 
 /// An open device. Clones share it; it closes when the last clone and the last thing made from it are gone.
@@ -66,7 +98,34 @@ impl Device {
             return Err(Error::Lacking { device: summary.name, missing: summary.missing });
         }
         let helper = options.helper.clone();
-        let gpu = Gpu::open(instance, physical, summary, helper.as_ref().and_then(Helper::cache))?;
+        let gpu = Gpu::open(instance, physical, summary, options.bounds, helper.as_ref().and_then(Helper::cache))?;
+        Ok(Device { gpu: Arc::new(gpu), helper, tested: Arc::default() })
+    }
+
+    /// Opens a device of a program's physical device, to find out what the program makes its own device with: Plans are made on it,
+    /// [`Plan::features`](framewright_graph::plan::Plan::features) tells what they use, and [`DeviceFeatures::exactly`](crate::DeviceFeatures::exactly)
+    /// makes the chain. It has every feature that is used, as far as the physical device has them. It may be closed before the program's own device
+    /// is made. `instance_extensions` are those that the instance was created with.
+    ///
+    /// # Errors
+    /// [`Error::Lacking`] if the physical device lacks what every Plan uses.
+    ///
+    /// # Safety
+    /// `physical` belongs to `instance`, whose `apiVersion` is 1.3 or later, and which lives until everything made from the device is gone.
+    pub unsafe fn open_physical(
+        instance: &ash::Instance,
+        instance_extensions: &[&CStr],
+        physical: vk::PhysicalDevice,
+        helper: Option<Helper>,
+    ) -> Result<Device, Error> {
+        let instance = Instance::adopted(instance.clone(), instance_extensions);
+        let summary = summary(&instance, 0, physical);
+        let missing = missing_of(&instance.raw, physical, |name| EVERY_PLAN_USES.contains(&name));
+        if !missing.is_empty() {
+            return Err(Error::Lacking { device: summary.name, missing });
+        }
+        let cache = helper.as_ref().and_then(Helper::cache);
+        let gpu = Gpu::open(instance, physical, summary, BufferBounds::CHECKED, cache)?;
         Ok(Device { gpu: Arc::new(gpu), helper, tested: Arc::default() })
     }
 
@@ -74,6 +133,12 @@ impl Device {
     #[must_use]
     pub fn summary(&self) -> &DeviceSummary {
         &self.gpu.summary
+    }
+
+    /// Whether the device keeps draws and shaders within their buffers. Of an adopted device the program has said so.
+    #[must_use]
+    pub fn bounds(&self) -> BufferBounds {
+        BufferBounds { unchecked: !self.gpu.features.bounds() }
     }
 
     /// How many pipelines were made so far. They are made with an executor, by
@@ -101,6 +166,16 @@ impl Device {
     #[must_use]
     pub fn raw_physical(&self) -> (&ash::Instance, vk::PhysicalDevice) {
         (&self.gpu.instance.raw, self.gpu.physical)
+    }
+
+    /// What a program makes a device of the same physical device with that has these features alone: see [`DeviceFeatures::exactly`].
+    ///
+    /// # Errors
+    /// Those of [`DeviceFeatures::exactly`].
+    pub fn exact_features(&self, names: &[&str]) -> Result<DeviceFeatures, Error> {
+        let (instance, physical) = self.raw_physical();
+        // SAFETY: the physical device belongs to the instance, which is one of Vulkan 1.3.
+        unsafe { DeviceFeatures::exactly(instance, physical, names) }
     }
 
     /// The index of the queue family that frames are submitted to. Unless the device was adopted, its queue number 0 is used. Command

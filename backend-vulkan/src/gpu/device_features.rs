@@ -1,6 +1,7 @@
 //! What a program switches on when it makes a device for this crate.
 
-use super::features::{Features, known_features, minimum_features};
+use super::device::BufferBounds;
+use super::features::{Features, ROBUST, known_features, minimum_features};
 use super::minimum::{has_extensions, missing, missing_of, too_old};
 use crate::base::Error;
 use ash::{khr, vk};
@@ -52,7 +53,12 @@ impl DeviceFeatures {
         refuse(instance, physical, too_old(instance, physical).into_iter().collect())?;
         // Queues are looked at with the features of the minimum.
         let mut lacks = missing_of(instance, physical, |name| names.contains(&name));
-        let has = Features::of(instance, physical);
+        let bounds = match names.contains(&ROBUST) {
+            true => BufferBounds::CHECKED,
+            // SAFETY: nothing is drawn here. The program vouches for what is drawn on its device.
+            false => unsafe { BufferBounds::unchecked() },
+        };
+        let has = Features::with_bounds(instance, physical, bounds);
         let (of_swapchains, is_minimum) =
             (UsedFeature::SWAPCHAIN, |name: &str| minimum_features().any(|it| it == name));
         let shows = names.contains(&of_swapchains);

@@ -1,5 +1,6 @@
 //! The features that a device must have, and those that are used where it has them.
 
+use super::device::BufferBounds;
 use super::extension_features::{DIVISOR, ExtensionFeatures};
 use super::minimum::has_extensions;
 use super::needed_features::NEEDED_FEATURES;
@@ -150,8 +151,17 @@ const SUBGROUPS: [(&str, IsSet); 10] = {
 };
 
 impl Features {
-    /// The features of `physical`.
+    /// The features that `physical` has together with `robustBufferAccess`.
     pub(crate) fn of(instance: &ash::Instance, physical: vk::PhysicalDevice) -> Features {
+        Features::with_bounds(instance, physical, BufferBounds::CHECKED)
+    }
+
+    /// The features of `physical`. With unchecked bounds `robustBufferAccess` isn't among them.
+    pub(super) fn with_bounds(
+        instance: &ash::Instance,
+        physical: vk::PhysicalDevice,
+        bounds: BufferBounds,
+    ) -> Features {
         let mut v1_1 = vk::PhysicalDeviceVulkan11Features::default();
         let mut v1_2 = vk::PhysicalDeviceVulkan12Features::default();
         let mut v1_3 = vk::PhysicalDeviceVulkan13Features::default();
@@ -165,12 +175,15 @@ impl Features {
         all = of_extensions.chain(all, |_, name| has(name) || name == DIVISOR && has_khr_divisor);
         // SAFETY: `physical` belongs to `instance`, and the chained structures outlive the call.
         unsafe { instance.get_physical_device_features2(physical, &mut all) };
-        let core = all.features;
+        let mut core = all.features;
         v1_1.p_next = std::ptr::null_mut();
         v1_2.p_next = std::ptr::null_mut();
         v1_3.p_next = std::ptr::null_mut();
         let subgroups = Subgroups::of(instance, physical);
-        without_unchecked(instance, physical, &mut v1_2);
+        match bounds.are_checked() {
+            true => without_unchecked(instance, physical, &mut v1_2),
+            false => core.robust_buffer_access = vk::FALSE,
+        }
         let khr_divisor = has_khr_divisor && !has(DIVISOR);
         Features { core, v1_1, v1_2, v1_3, of_extensions: of_extensions.unchained(), khr_divisor, subgroups }
     }
@@ -258,6 +271,11 @@ impl Features {
         self.of_extensions.local_read.dynamic_rendering_local_read == vk::TRUE
     }
 
+    /// Whether draws and shaders are kept within their buffers.
+    pub(crate) fn bounds(&self) -> bool {
+        self.core.robust_buffer_access == vk::TRUE
+    }
+
     /// Whether buffers can have addresses.
     pub(crate) fn addresses(&self) -> bool {
         self.v1_2.buffer_device_address == vk::TRUE
@@ -315,7 +333,7 @@ impl Subgroups {
     }
 }
 
-/// Takes away what a device can't do together with `robustBufferAccess`, which is always asked for: some can't check the bounds of buffers
+/// Takes away what a device can't do together with `robustBufferAccess`: some can't check the bounds of buffers
 /// that are written after their set was bound.
 fn without_unchecked(
     instance: &ash::Instance,

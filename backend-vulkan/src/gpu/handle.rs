@@ -2,6 +2,7 @@
 
 use super::cached_objects::Caches;
 use super::dead_images::Followers;
+use super::device::BufferBounds;
 use super::features::Features;
 use super::instance::Instance;
 use super::labels::are_shown;
@@ -83,10 +84,11 @@ impl Gpu {
         instance: Instance,
         physical: vk::PhysicalDevice,
         summary: DeviceSummary,
+        bounds: BufferBounds,
         cache: Option<&Cache>,
     ) -> Result<Gpu, Error> {
         let families = QueueFamilies::of(&instance.raw, physical).ok_or(Error::NoDevice)?;
-        let features = Features::used(Features::of(&instance.raw, physical), |_| true);
+        let features = Features::used(Features::with_bounds(&instance.raw, physical, bounds), |_| true);
         let mut chained = features.copy();
         let queue = |family: &u32| vk::DeviceQueueCreateInfo::default().queue_family_index(*family);
         let queues: Vec<_> = families.indices.iter().map(|family| queue(family).queue_priorities(&[1.0])).collect();

@@ -64,6 +64,7 @@ fn limits_of(limits: &vk::PhysicalDeviceLimits, buffer_bytes: u64) -> Limits {
         vertex_attributes: limits.max_vertex_input_attributes.into(),
         vertex_offset: limits.max_vertex_input_attribute_offset.into(),
         vertex_stride: limits.max_vertex_input_binding_stride.into(),
+        indirect_draws: limits.max_draw_indirect_count.into(),
         push_constant_bytes: limits.max_push_constants_size.into(),
         line_width: whole(limits.line_width_range[1]),
         anisotropy: whole(limits.max_sampler_anisotropy),

@@ -28,7 +28,7 @@ mod words;
 pub use adopted_device::AdoptedDevice;
 pub use cached_objects::{LocalReads, SamplerDescriptor, ScopeFormats};
 pub use dead_images::DeadImages;
-pub use device::{Device, DeviceOptions};
+pub use device::{BufferBounds, Device, DeviceOptions};
 pub use device_features::DeviceFeatures;
 pub use features::{minimum_features, optional_features};
 pub use minimum::MINIMUM_VERSION;

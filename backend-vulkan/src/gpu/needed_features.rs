@@ -3,7 +3,7 @@
 use super::features::OptionalFeature;
 
 /// Features that are used where a device has them, and that pipelines can need by their shaders and draws: profiles tell of these.
-pub(super) const NEEDED_FEATURES: [OptionalFeature; 70] = [
+pub(super) const NEEDED_FEATURES: [OptionalFeature; 72] = [
     ("imageCubeArray", "shaders that see several cubes at once", |it| &mut it.core.image_cube_array),
     (
         "shaderSampledImageArrayDynamicIndexing",
@@ -110,6 +110,8 @@ pub(super) const NEEDED_FEATURES: [OptionalFeature; 70] = [
     ("drawIndirectFirstInstance", "draws whose counts, in a buffer, have a first instance that isn't 0", |it| {
         &mut it.core.draw_indirect_first_instance
     }),
+    ("multiDrawIndirect", "several draws whose counts a buffer holds", |it| &mut it.core.multi_draw_indirect),
+    ("drawIndirectCount", "a number of draws that a buffer holds", |it| &mut it.v1_2.draw_indirect_count),
     ("depthBiasClamp", "a bound of the depth bias", |it| &mut it.core.depth_bias_clamp),
     ("depthClamp", "depth that is clamped to the near and far plane", |it| &mut it.core.depth_clamp),
     ("dualSrcBlend", "blends with a second colour of the shader", |it| &mut it.core.dual_src_blend),

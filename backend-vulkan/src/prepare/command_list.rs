@@ -7,7 +7,7 @@ use crate::base::Error;
 use crate::commands::{TransferCommand, stages_of};
 use crate::gpu::{Gpu, LocalReads};
 use ash::vk;
-use framewright_graph::frame::RasterState;
+use framewright_graph::frame::{IndirectDraws, RasterState};
 use framewright_graph::plan::Pass;
 use framewright_graph::vulkan::{CullMode, FrontFace};
 use std::ffi::CString;
@@ -143,8 +143,8 @@ pub(crate) struct OwnDraw {
 pub(crate) enum DrawCounts {
     /// The number of vertices or indices, and the number of instances.
     Direct(u32, u32),
-    /// The counts that the buffer holds.
-    Indirect(vk::Buffer),
+    /// The counts that the buffer holds, and the buffer that holds how many there are.
+    Indirect(IndirectDraws, vk::Buffer, Option<vk::Buffer>),
 }
 
 /// A dispatch.

@@ -39,7 +39,7 @@ pub(crate) use param_block::ParamBlock;
 pub(crate) use pass::{PassState, PreparedDraw};
 pub(crate) use physical::PhysicalResources;
 pub(crate) use poison::pattern;
-pub(crate) use prepared_step::{Debugging, Preparation, PreparedPlan};
+pub(crate) use prepared_step::{Debugging, Preparation, PreparedPlan, Replaced};
 pub(crate) use step::{PreparedStep, numbered, numbered_titles};
 pub(crate) use supplied_sets::{SuppliedBlock, SuppliedSet, SuppliedSets};
 pub(crate) use textures::{StagedTexture, file_of, stage_textures};

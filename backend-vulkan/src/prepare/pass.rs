@@ -17,7 +17,7 @@ use crate::pipeline::{
 };
 use crate::shaders::{CompiledShader, ShaderLibrary};
 use ash::vk;
-use framewright_graph::frame::{BufferRole, Draw, EyeForm, Groups, Stereo};
+use framewright_graph::frame::{BufferRole, Draw, EyeForm, Groups, IndirectDraws, Stereo};
 use framewright_graph::plan::{self, BufferId, Plan, RenderScope};
 use framewright_graph::shader::{
     DrawInterface, PASS_SET, PushedBlock, ShaderInterface, ShaderInterfaces, ShaderProblem,
@@ -37,7 +37,8 @@ pub(crate) struct PreparedDraw {
     /// The pass's own vertex buffers.
     vertices: Vec<BufferId>,
     indices: Option<BufferId>,
-    indirect: Option<BufferId>,
+    /// The buffer of the counts of its draws, and that of their number.
+    indirect: Option<(BufferId, Option<BufferId>)>,
 }
 
 /// A pipeline of a pass. Its handle is null until it is made.
@@ -107,9 +108,12 @@ impl PreparedDraw {
             let (indices, supplied) = (self.indices.map(buffer), self.state.supplied.are_read());
             DrawnVertices::Own(Box::new(OwnDraw { vertices, offsets, indices, counts, supplied }))
         };
-        let vertices = match (self.draw.counts(), self.indirect) {
+        let indirect = self.draw.indirect().zip(self.indirect);
+        let vertices = match (self.draw.counts(), indirect) {
             (Some([count, instances]), _) => own(DrawCounts::Direct(count, instances)),
-            (None, Some(counts)) => own(DrawCounts::Indirect(buffer(counts))),
+            (None, Some((draws, (counts, number)))) => {
+                own(DrawCounts::Indirect(draws, buffer(counts), number.map(buffer)))
+            }
             (None, None) if self.draw.is_full_screen() && !self.state.supplied.are_read() => DrawnVertices::FullScreen,
             (None, None) => DrawnVertices::Source,
         };
@@ -187,6 +191,19 @@ fn indirect(pass: &plan::Pass) -> Result<BufferId, String> {
     buffers(pass, BufferRole::Indirect).first().copied().ok_or_else(|| "no buffer tells its counts".to_owned())
 }
 
+/// The buffers of the counts of indirect draws and of their number. The device must allow as many.
+fn check_indirect(gpu: &Gpu, pass: &plan::Pass, draws: IndirectDraws) -> Result<(BufferId, Option<BufferId>), String> {
+    let (most, of) = (gpu.limits.max_draw_indirect_count, draws.draws);
+    if of > most {
+        return Err(format!("{of} indirect draws are more than the {most} of this device"));
+    }
+    let number = buffers(pass, BufferRole::Count).first().copied();
+    if number.is_some() != draws.count.is_some() {
+        return Err("nothing tells the number of its draws, or two do".to_owned());
+    }
+    Ok((indirect(pass)?, number))
+}
+
 impl PassPipeline {
     /// One that is yet to be made.
     const fn unmade(descriptor: PipelineDescriptor) -> PassPipeline {
@@ -239,7 +256,7 @@ pub(super) fn prepare_draw(
         [one] => Some(one),
         _ => return Err(mismatch("it has several index buffers".to_owned())),
     };
-    let indirect = if draw.is_indirect() { Some(indirect(pass).map_err(mismatch)?) } else { None };
+    let indirect = draw.indirect().map(|draws| check_indirect(gpu, pass, draws)).transpose().map_err(mismatch)?;
     let targets = targets(plan, scope, pass).map_err(mismatch)?;
     let mut brought = shaders.brought_along(Some(draw), &pass.shader);
     let brought_buffers = u32::try_from(brought.vertex_buffers.len()).unwrap_or(u32::MAX);

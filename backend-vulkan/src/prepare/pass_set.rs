@@ -36,6 +36,9 @@ enum BoundResource {
     Image { image: ImageId, range: Subresources, shape: ViewShape, layout: vk::ImageLayout, sampler: Option<Sampler> },
 }
 
+/// The sets of a pass that were made, for frames on their way that read them.
+pub(crate) struct MadeSets(#[expect(dead_code, reason = "it is kept until it is dropped")] RingCache<PassSet>);
+
 /// A pass's own descriptor set with all that it points to. Fields are dropped in this order.
 struct PassSet {
     set: DescriptorSet,
@@ -138,22 +141,32 @@ impl PassSets {
         self.made = None;
     }
 
+    /// Forgets all sets if they point to this one, for which another stands now, and returns them.
+    pub(super) fn replace(&mut self, resource: Resource) -> Option<MadeSets> {
+        let points = resources(&self.bindings).any(|it| it == resource);
+        self.made.take_if(|_| points).map(MadeSets)
+    }
+
     /// The set for a frame; `None` if it would be empty.
     pub(super) fn prepare(&mut self, frame: &Frame<'_>) -> Result<Option<vk::DescriptorSet>, Error> {
         if self.bindings.is_empty() {
             return Ok(None);
         }
         let (bindings, params) = (&self.bindings, self.params.as_ref().map(|(_, params)| params));
-        let resources = bindings.iter().flat_map(|(_, elements)| elements).filter_map(|bound| match *bound {
-            BoundResource::Params | BoundResource::Sampler(_) => None,
-            BoundResource::Buffer(buffer) => Some(Resource::Buffer(buffer)),
-            BoundResource::Image { image, .. } => Some(Resource::Image(image)),
-        });
         let params_period = params.map_or(1, ParamBlock::period);
-        let period = || frame.physical.period(resources).and_every(params_period);
+        let period = || frame.physical.period(resources(bindings)).and_every(params_period);
         let made = self.made.get_or_insert_with(|| RingCache::new(period()));
         made.prepare(frame.turn(), || PassSet::new(frame, bindings, params)).map(|made| Some(made.set.raw))
     }
+}
+
+/// The images and buffers that are bound.
+fn resources(bindings: &[(LayoutBinding, Vec<BoundResource>)]) -> impl Iterator<Item = Resource> {
+    bindings.iter().flat_map(|(_, elements)| elements).filter_map(|bound| match *bound {
+        BoundResource::Params | BoundResource::Sampler(_) => None,
+        BoundResource::Buffer(buffer) => Some(Resource::Buffer(buffer)),
+        BoundResource::Image { image, .. } => Some(Resource::Image(image)),
+    })
 }
 
 impl PassSet {

@@ -128,26 +128,37 @@ impl PhysicalResources {
         self.migrated.contains(&resource)
     }
 
-    /// Takes other images for an external one, at least one. The first is chosen. Nothing that was made for the images before may be
-    /// left.
-    pub(crate) fn replace_images(&mut self, image: ImageId, by: impl IntoIterator<Item = Image>) {
+    /// Takes other images for an external one, at least one, and returns those before. The first is chosen. No later frame may use what was
+    /// made for the images before.
+    pub(super) fn replace_images(&mut self, image: ImageId, by: impl IntoIterator<Item = Image>) -> Vec<Arc<Image>> {
         let resource = Resource::Image(image);
-        let (members, count) = replace(&mut self.images, self.rings.members(resource), by);
+        let (members, count, before) = replace(&mut self.images, self.rings.members(resource), by);
         self.used.retain(|place, _| !members.contains(place));
         self.rings.set_members(resource, members, count);
+        before
     }
 
     /// Takes other buffers for an external one, as [`PhysicalResources::replace_images`] does.
-    pub(crate) fn replace_buffers(&mut self, buffer: BufferId, by: impl IntoIterator<Item = RawBuffer>) {
+    pub(super) fn replace_buffers(
+        &mut self,
+        buffer: BufferId,
+        by: impl IntoIterator<Item = RawBuffer>,
+    ) -> Vec<Arc<RawBuffer>> {
         let resource = Resource::Buffer(buffer);
-        let (members, count) = replace(&mut self.buffers, self.rings.members(resource), by);
+        let (members, count, before) = replace(&mut self.buffers, self.rings.members(resource), by);
         self.rings.set_members(resource, members, count);
+        before
     }
 }
 
 /// Puts these in the places `before` of a list, and more at its end. Returns their places, then those that aren't needed any more,
-/// which hold the first of these, and the number of these.
-fn replace<T>(list: &mut Vec<Arc<T>>, before: &[usize], by: impl IntoIterator<Item = T>) -> (Vec<usize>, usize) {
+/// which hold the first of these; the number of these; and what the places held before.
+fn replace<T>(
+    list: &mut Vec<Arc<T>>,
+    before: &[usize],
+    by: impl IntoIterator<Item = T>,
+) -> (Vec<usize>, usize, Vec<Arc<T>>) {
+    let held = before.iter().map(|place| list[*place].clone()).collect();
     let (mut places, mut count) = (before.to_vec(), 0);
     for one in by {
         match places.get(count) {
@@ -162,7 +173,7 @@ fn replace<T>(list: &mut Vec<Arc<T>>, before: &[usize], by: impl IntoIterator<It
     for place in &places[count..] {
         list[*place] = list[places[0]].clone();
     }
-    (places, count)
+    (places, count, held)
 }
 
 impl Gpu {

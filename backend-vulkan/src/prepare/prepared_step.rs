@@ -2,15 +2,16 @@
 
 use super::command_list::CommandList;
 use super::frame::{Frame, FrameClock};
-use super::pass_set::PassSets;
+use super::pass_set::{MadeSets, PassSets};
 use super::physical::PhysicalResources;
 use super::step::{PreparedStep, period};
 use super::steps::prepare_steps;
 use crate::base::Error;
 use crate::gpu::Gpu;
+use crate::memory::{Image, RawBuffer};
 use crate::resources::ProgramSets;
 use crate::shaders::ShaderLibrary;
-use framewright_graph::plan::{self, ImageId, Plan, Role};
+use framewright_graph::plan::{self, BufferId, ImageId, Plan, Resource, Role};
 use std::sync::Arc;
 
 /// What is recorded beside the Plan, to look for mistakes. None of it may change a picture.
@@ -28,6 +29,13 @@ pub(crate) struct Preparation {
     pub(crate) debugging: Debugging,
     /// How many frames may be in flight, at least one.
     pub(crate) frames_in_flight: u32,
+}
+
+/// What stood for an external image or buffer, and the sets that point to it. Fields are dropped in this order.
+pub(crate) struct Replaced {
+    _sets: Vec<MadeSets>,
+    _images: Vec<Arc<Image>>,
+    _buffers: Vec<Arc<RawBuffer>>,
 }
 
 /// Everything that a Plan needs on a device.
@@ -99,7 +107,27 @@ impl PreparedPlan {
         (0..plan.steps.len()).try_for_each(|index| prepare(list, index))
     }
 
-    /// Forgets all sets and commands, since another image or buffer was imported. Nothing may be in flight.
+    /// Takes the program's images for an external one, as [`PhysicalResources::replace_images`] does, and returns what frames in flight may
+    /// use of those before.
+    pub(crate) fn replace_images(&mut self, image: ImageId, by: impl IntoIterator<Item = Image>) -> Replaced {
+        let _images = self.physical.replace_images(image, by);
+        Replaced { _sets: self.replaced_sets(Resource::Image(image)), _images, _buffers: Vec::new() }
+    }
+
+    /// Takes the program's buffers for an external one, as [`PreparedPlan::replace_images`] does.
+    pub(crate) fn replace_buffers(&mut self, buffer: BufferId, by: impl IntoIterator<Item = RawBuffer>) -> Replaced {
+        let _buffers = self.physical.replace_buffers(buffer, by);
+        Replaced { _sets: self.replaced_sets(Resource::Buffer(buffer)), _images: Vec::new(), _buffers }
+    }
+
+    /// Forgets what was made for an image or buffer that another one stands for now. Frames in flight may read the sets.
+    fn replaced_sets(&mut self, resource: Resource) -> Vec<MadeSets> {
+        self.forget_commands();
+        let sets = self.steps.iter_mut().flat_map(PreparedStep::sets);
+        sets.filter_map(|sets| sets.replace(resource)).collect()
+    }
+
+    /// Forgets all sets and commands, since other images and buffers stand for the Plan's. Nothing may be in flight.
     pub(crate) fn forget(&mut self) {
         self.forget_commands();
         self.steps.iter_mut().flat_map(PreparedStep::sets).for_each(PassSets::forget);

@@ -146,7 +146,6 @@ impl Executor {
         // SAFETY: the images are as the Plan describes them and are kept as long as this executor may use them. Each is chosen
         // only when it is free.
         unsafe { self.import_images(name, &swapchain.images) }?;
-        self.owners.retain(|(of, _)| of != name);
         self.owners.push((name.to_owned(), owner));
         Ok(())
     }

@@ -84,8 +84,8 @@ impl Swapchain {
     /// still be shown, they stay. `extent` counts where the surface leaves the size to the program. Returns whether the surface has
     /// an area now.
     ///
-    /// Executors keep the old images until they present again or are dropped; then all work of the graphics queue is waited
-    /// for.
+    /// Executors keep the old images until they have presented others and the frames in the old ones are done, or until they are dropped.
+    /// Then all work of the graphics queue is waited for.
     ///
     /// # Errors
     /// Those of [`Swapchain::new`]. Nothing can be shown then until it succeeds.

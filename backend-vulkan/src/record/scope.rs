@@ -10,6 +10,7 @@ use crate::base::Error;
 use crate::gpu::{Gpu, LocalReads};
 use crate::prepare::{CommandList, DrawCommand, DrawCounts, DrawnVertices, OwnDraw, ScopeCommand};
 use ash::vk;
+use framewright_graph::frame::IndirectDraws;
 
 /// Begins a rendering scope, or goes on with it.
 pub(super) fn begin(
@@ -110,7 +111,7 @@ fn draw_own(canvas: &mut Canvas<'_>, own: &OwnDraw) -> Result<(), String> {
     let (device, commands) = (&canvas.gpu.raw, canvas.commands);
     // SAFETY: the command buffer is being recorded, the Plan's usages were checked by the checker, everything that the pipeline
     // reads is bound, and with robustBufferAccess an index beyond the vertices reads no foreign memory. A buffer of counts holds
-    // one command.
+    // as many commands, and the device allows as many.
     unsafe {
         if !own.vertices.is_empty() {
             device.cmd_bind_vertex_buffers(commands, 0, &own.vertices, &own.offsets);
@@ -129,8 +130,20 @@ fn draw_own(canvas: &mut Canvas<'_>, own: &OwnDraw) -> Result<(), String> {
                     }
                 });
             }
-            DrawCounts::Indirect(counts) if indexed => device.cmd_draw_indexed_indirect(commands, counts, 0, 1, 20),
-            DrawCounts::Indirect(counts) => device.cmd_draw_indirect(commands, counts, 0, 1, 16),
+            DrawCounts::Indirect(draws, counts, number) => {
+                let IndirectDraws { draws: most, offset, count, .. } = draws;
+                let stride = draws.stride(indexed);
+                match (number.zip(count), indexed) {
+                    (None, false) => device.cmd_draw_indirect(commands, counts, offset, most, stride),
+                    (None, true) => device.cmd_draw_indexed_indirect(commands, counts, offset, most, stride),
+                    (Some((number, at)), false) => {
+                        device.cmd_draw_indirect_count(commands, counts, offset, number, at, most, stride);
+                    }
+                    (Some((number, at)), true) => {
+                        device.cmd_draw_indexed_indirect_count(commands, counts, offset, number, at, most, stride);
+                    }
+                }
+            }
         }
     }
     Ok(())

@@ -14,7 +14,7 @@ use framewright_vulkan::{Device, Executor, ExecutorOptions};
 const WHOLE: Subresources = Subresources::WHOLE;
 const ONE: Groups = Groups::Count([1, 1, 1]);
 
-const SHADERS: &[(&str, &str)] = &[
+pub(crate) const SHADERS: &[(&str, &str)] = &[
     (
         "double.frag",
         "#version 460
@@ -57,7 +57,7 @@ fn imported(name: &str, before: State, after: Option<State>) -> Image {
 }
 
 /// Draws numbers into the imported image `shared`, and leaves it to be sampled.
-fn drawn_into() -> Frame {
+pub(crate) fn drawn_into() -> Frame {
     let mut small = Small::default();
     let shared = small.image_like(imported("shared", UNKNOWN, Some(SAMPLED)));
     small.pass(draw("number", Draw::FullScreen).draws(shared, WHOLE, None));
@@ -66,7 +66,7 @@ fn drawn_into() -> Frame {
 }
 
 /// Samples the imported image `shared`, which is ready for that, and leaves it so.
-fn sampled_from() -> Frame {
+pub(crate) fn sampled_from() -> Frame {
     let mut small = Small::default();
     let shared = small.image_like(imported("shared", SAMPLED, Some(SAMPLED)));
     let doubled = small.image("doubled", Format::R32_UINT, [2, 2]);
@@ -159,8 +159,13 @@ fn two_frames(executor: &mut Executor) {
     }
 }
 
+/// Waits until the frames that were submitted are done.
+fn wait_for_last(executor: &mut Executor) {
+    executor.wait(executor.frames() - 1).expect("it ends");
+}
+
 /// Increases each word of the imported buffer `own`.
-fn increased() -> Frame {
+pub(crate) fn increased() -> Frame {
     let mut small = Small::default();
     let changed = State {
         stages: Stages::COMPUTE_SHADER,
@@ -211,6 +216,8 @@ fn an_image_is_imported_in_place_of_another_that_frames_in_flight_use() {
             first.import_image("shared", new.0).expect("it is external");
             two_frames(&mut second);
             second.import_image("shared", new.0).expect("it is external");
+            wait_for_last(&mut first);
+            wait_for_last(&mut second);
             destroy_image(device, old);
         }
         two_frames(&mut second);
@@ -236,6 +243,7 @@ fn a_buffer_is_imported_in_place_of_another_that_frames_in_flight_use() {
             }
             two_frames(&mut executor);
             executor.import_buffer("own", new.0).expect("it is external");
+            wait_for_last(&mut executor);
             destroy_buffer(device, old);
         }
         two_frames(&mut executor);

@@ -97,7 +97,7 @@ fn drawn(frame: u32) -> Vec<u32> {
 }
 
 /// A semaphore of the program's.
-struct Semaphore<'d> {
+pub(crate) struct Semaphore<'d> {
     device: &'d Device,
     raw: vk::Semaphore,
 }
@@ -110,15 +110,15 @@ impl Semaphore<'_> {
         Semaphore { device, raw: unsafe { device.raw().create_semaphore(&info, None) }.expect("a semaphore") }
     }
 
-    fn timeline(device: &Device) -> Semaphore<'_> {
+    pub(crate) fn timeline(device: &Device) -> Semaphore<'_> {
         Semaphore::new(device, vk::SemaphoreType::TIMELINE)
     }
 
-    fn at(&self, value: u64) -> SemaphorePoint {
+    pub(crate) fn at(&self, value: u64) -> SemaphorePoint {
         SemaphorePoint::timeline(self.raw, value)
     }
 
-    fn signal(&self, value: u64) {
+    pub(crate) fn signal(&self, value: u64) {
         let info = vk::SemaphoreSignalInfo::default().semaphore(self.raw).value(value);
         // SAFETY: the value is larger than any before.
         unsafe { self.device.raw().signal_semaphore(&info) }.expect("signalled");

@@ -100,7 +100,8 @@ fn pf_8_the_example_of_an_exact_device_draws_the_same() {
     let Some(device) = testing::open() else { return };
     let messages = device.messages();
     let scene = scene::load(&in_repository("examples/scenes/spheres_and_cubes.ron")).expect("a scene");
-    let drawn = exact_device::draw(&device, &scene).expect("drawn");
+    let (instance, physical) = device.raw_physical();
+    let drawn = exact_device::draw(instance, physical, &scene).expect("drawn");
     let setup = Setup { pipeline: "examples/pipelines/forward.ron", set: &[], scene: &scene, extent: [64, 36] };
     assert_eq!(drawn, render::render(&device, &setup).expect("drawn")[0]);
     drop(device);

@@ -143,6 +143,7 @@ impl<'a> App<'a> {
             validation: arguments.validate,
             helper: Some(helper.clone()),
             display: Some(display),
+            ..DeviceOptions::default()
         })?;
         device.cancel_when(interrupt::asked);
         let canary = if arguments.validate { Some(device.canary()?) } else { None };

@@ -95,8 +95,7 @@ unsafe fn adopt(program: &FramewrightAdoptedDevice) -> Result<FramewrightDevice,
     }
     // SAFETY: the system's loader is trusted; the handles and lists are the caller's word.
     unsafe {
-        let entry = ash::Entry::load().map_err(|error| Error::NoLoader { reason: error.to_string() })?;
-        let instance = ash::Instance::load(entry.static_fn(), program.instance);
+        let instance = of_loader(program.instance)?;
         let device = ash::Device::load(instance.fp_v1_0(), program.device);
         let of_instance = names(&program.instance_extensions, "instance_extensions")?;
         let of_device = names(&program.device_extensions, "device_extensions")?;
@@ -115,6 +114,48 @@ unsafe fn adopt(program: &FramewrightAdoptedDevice) -> Result<FramewrightDevice,
     }
 }
 
+/// Opens a device of a program's physical device, to find out what the program makes its own device with: renderers on it tell what their
+/// frames use, `framewright_renderer_device_features`. It has every feature that is used, as far as the physical device has them. The
+/// instance has Vulkan 1.3 as its `apiVersion`, comes from the system's loader, and outlives all that is made from the handle.
+/// `instance_extensions` are those that it was created with; NULL: none. `helper` is as in FramewrightDeviceOptions.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_device_open_physical(
+    instance: vk::Instance,
+    instance_extensions: *const FramewrightNames,
+    physical_device: vk::PhysicalDevice,
+    helper: *const c_char,
+    device: *mut *mut FramewrightDevice,
+) -> FramewrightStatus {
+    let open = || {
+        is_null(instance == vk::Instance::null(), "`instance`")?;
+        is_null(physical_device == vk::PhysicalDevice::null(), "`physical_device`")?;
+        // SAFETY: the system's loader is trusted; the handles and lists are the caller's word.
+        unsafe {
+            let instance = of_loader(instance)?;
+            let extensions = instance_extensions.as_ref().unwrap_or(&FramewrightNames::NONE);
+            let extensions = names(extensions, "instance_extensions")?;
+            let extensions: Vec<&CStr> = extensions.iter().map(CString::as_c_str).collect();
+            let helper = helper_of(helper)?;
+            let device = Device::open_physical(&instance, &extensions, physical_device, helper.clone())?;
+            Ok(FramewrightDevice::new(device, helper))
+        }
+    };
+    // SAFETY: the caller's word.
+    call(|| unsafe { handle(device, "device", open) })
+}
+
+/// An instance of the system's loader.
+///
+/// # Safety
+/// The loader is trusted, and the instance is one of its.
+unsafe fn of_loader(instance: vk::Instance) -> Result<ash::Instance, Error> {
+    // SAFETY: the caller's word.
+    unsafe {
+        let entry = ash::Entry::load().map_err(|error| Error::NoLoader { reason: error.to_string() })?;
+        Ok(ash::Instance::load(entry.static_fn(), instance))
+    }
+}
+
 fn is_null(null: bool, what: &str) -> Result<(), Problem> {
     if null { Err(Problem::Misuse(format!("{what} is NULL"))) } else { Ok(()) }
 }
@@ -125,6 +166,16 @@ pub struct FramewrightFeatures {
     features: *mut DeviceFeatures,
     chain: vk::PhysicalDeviceFeatures2<'static>,
     extensions: Vec<*const c_char>,
+}
+
+impl FramewrightFeatures {
+    pub(crate) fn new(features: DeviceFeatures) -> FramewrightFeatures {
+        let extensions = features.extensions().iter().map(|name| name.as_ptr()).collect();
+        let features = Box::into_raw(Box::new(features));
+        // SAFETY: what the chain leads to stays where it is, and lives as long: both are freed together.
+        let chain = unsafe { (*features).chain() };
+        FramewrightFeatures { features, chain, extensions }
+    }
 }
 
 impl Drop for FramewrightFeatures {
@@ -150,18 +201,13 @@ pub unsafe extern "C" fn framewright_features_open(
         is_null(physical_device == vk::PhysicalDevice::null(), "`physical_device`")?;
         // SAFETY: the system's loader is trusted; the handles and the list are the caller's word.
         let features = unsafe {
-            let entry = ash::Entry::load().map_err(|error| Error::NoLoader { reason: error.to_string() })?;
-            let instance = ash::Instance::load(entry.static_fn(), instance);
+            let instance = of_loader(instance)?;
             match used.as_ref() {
                 None => DeviceFeatures::of(&instance, physical_device)?,
                 Some(used) => DeviceFeatures::exactly(&instance, physical_device, &used.texts("used")?)?,
             }
         };
-        let extensions = features.extensions().iter().map(|name| name.as_ptr()).collect();
-        let features = Box::into_raw(Box::new(features));
-        // SAFETY: what the chain leads to stays where it is, and lives as long: both are freed together.
-        let chain = unsafe { (*features).chain() };
-        Ok(FramewrightFeatures { features, chain, extensions })
+        Ok(FramewrightFeatures::new(features))
     };
     // SAFETY: the caller's word.
     call(|| unsafe { handle(features, "features", open) })

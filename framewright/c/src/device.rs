@@ -5,7 +5,7 @@ use crate::last_error::{call, text};
 use crate::status::{FramewrightStatus, Problem};
 use framewright::vulkan::ash::vk;
 use framewright::vulkan::{DeadImages, DeviceChoice, helper::Limits};
-use framewright::{Device, DeviceOptions, Helper};
+use framewright::{BufferBounds, Device, DeviceOptions, Helper};
 use std::ffi::{CString, c_char, c_void};
 use std::ptr;
 use std::sync::OnceLock;
@@ -33,13 +33,21 @@ pub struct FramewrightDeviceOptions {
     /// A program whose `main` calls `helper::serve`, such as the command `framewright`: shaders are compiled and drivers tested in
     /// it, and can't end this one. NULL: in this process, which is for shaders and drivers that are trusted.
     pub helper: *const c_char,
+    /// Whether the device leaves draws and shaders unchecked: `robustBufferAccess` is off. Then no index of a draw, an indirect draw or a
+    /// shader may reach beyond its buffer: for programs that draw files and shaders of their own alone. 0: it keeps them within.
+    pub unchecked_bounds: u32,
 }
 
 // SAFETY: it begins with its size, and has integers and pointers alone.
 unsafe impl Structure for FramewrightDeviceOptions {
     const NAME: &'static str = "FramewrightDeviceOptions";
-    const DEFAULT: Self =
-        FramewrightDeviceOptions { struct_size: 0, name: ptr::null(), validation: 0, helper: ptr::null() };
+    const DEFAULT: Self = FramewrightDeviceOptions {
+        struct_size: 0,
+        name: ptr::null(),
+        validation: 0,
+        helper: ptr::null(),
+        unchecked_bounds: 0,
+    };
 }
 
 /// Is told a finding of the validation layer, which lives until it returns: the layer's words, behind the step and pass where the layer
@@ -79,7 +87,13 @@ pub unsafe extern "C" fn framewright_device_open(
         };
         let choice = name.map_or(DeviceChoice::Default, |name| DeviceChoice::Name(name.to_owned()));
         let validation = options.validation != 0;
-        let device = Device::open(&DeviceOptions { choice, validation, helper: helper.clone(), display: None })?;
+        let bounds = match options.unchecked_bounds {
+            0 => BufferBounds::CHECKED,
+            // SAFETY: the caller's word.
+            _ => unsafe { BufferBounds::unchecked() },
+        };
+        let options = DeviceOptions { choice, validation, helper: helper.clone(), bounds, display: None };
+        let device = Device::open(&options)?;
         Ok(FramewrightDevice::new(device, helper))
     };
     // SAFETY: the caller's word.

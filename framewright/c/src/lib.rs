@@ -27,7 +27,8 @@ mod version;
 
 pub use adopt::{
     FramewrightAdoptedDevice, FramewrightFeatures, FramewrightQueue, framewright_device_adopt,
-    framewright_features_chain, framewright_features_extensions, framewright_features_free, framewright_features_open,
+    framewright_device_open_physical, framewright_features_chain, framewright_features_extensions,
+    framewright_features_free, framewright_features_open,
 };
 pub use arguments::FramewrightNames;
 pub use device::{

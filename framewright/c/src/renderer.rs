@@ -1,5 +1,6 @@
 //! Renderers: a pipeline, and what was chosen for it.
 
+use crate::adopt::FramewrightFeatures;
 use crate::arguments::{
     FramewrightNames, Structure, free, from_0, handle, list, optional_text, output, reference, structure, text,
 };
@@ -433,6 +434,21 @@ pub unsafe extern "C" fn framewright_renderer_features(
                 tell(context, name.as_ptr(), by.as_ptr());
             }
             Ok(())
+        })
+    }
+}
+
+/// Tells with which features and extensions a program makes a device of the same physical device for the next frame: those that
+/// `framewright_renderer_features` tells, and no others. Freed by `framewright_features_free`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_device_features(
+    renderer: *mut FramewrightRenderer,
+    features: *mut *mut FramewrightFeatures,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            handle(features, "features", || Ok(FramewrightFeatures::new(state.renderer.device_features()?)))
         })
     }
 }

@@ -108,6 +108,8 @@ limits! {
     VertexOffset, vertex_offset, "maxVertexInputAttributeOffset", 2047;
     /// Bytes from vertex to vertex.
     VertexStride, vertex_stride, "maxVertexInputBindingStride", 2048;
+    /// Indirect draws at once.
+    IndirectDraws, indirect_draws, "maxDrawIndirectCount", 1;
     /// Bytes of push constants.
     PushConstantBytes, push_constant_bytes, "maxPushConstantsSize", 128;
     /// Texels that a line is wide, as far as they are whole.

@@ -23,6 +23,8 @@ pub enum BufferRole {
     Index,
     /// Counts of a draw or dispatch.
     Indirect,
+    /// The number of draws whose counts stand in the buffer of the role `Indirect`.
+    Count,
 }
 
 impl BufferRole {
@@ -33,7 +35,7 @@ impl BufferRole {
             BufferRole::Storage { .. } => AccessKind::Storage,
             BufferRole::Vertex => AccessKind::Vertex,
             BufferRole::Index => AccessKind::Index,
-            BufferRole::Indirect => AccessKind::Indirect,
+            BufferRole::Indirect | BufferRole::Count => AccessKind::Indirect,
         }
     }
 
@@ -42,7 +44,7 @@ impl BufferRole {
     pub const fn is_of_shaders(self) -> bool {
         match self {
             BufferRole::Uniform | BufferRole::Storage { .. } => true,
-            BufferRole::Vertex | BufferRole::Index | BufferRole::Indirect => false,
+            BufferRole::Vertex | BufferRole::Index | BufferRole::Indirect | BufferRole::Count => false,
         }
     }
 
@@ -50,6 +52,12 @@ impl BufferRole {
     #[must_use]
     pub const fn is_indirect(self) -> bool {
         matches!(self, BufferRole::Indirect)
+    }
+
+    /// Whether it holds a number of draws.
+    #[must_use]
+    pub const fn is_count(self) -> bool {
+        matches!(self, BufferRole::Count)
     }
 
     /// Whether it holds indices.
@@ -76,7 +84,7 @@ impl BufferRole {
         match self {
             BufferRole::Uniform => Some((Limit::UniformBytes, "uniform block")),
             BufferRole::Storage { .. } => Some((Limit::StorageBytes, "storage block")),
-            BufferRole::Vertex | BufferRole::Index | BufferRole::Indirect => None,
+            BufferRole::Vertex | BufferRole::Index | BufferRole::Indirect | BufferRole::Count => None,
         }
     }
 
@@ -91,6 +99,7 @@ impl BufferRole {
             BufferRole::Vertex => "vertices",
             BufferRole::Index => "indices",
             BufferRole::Indirect => "counts",
+            BufferRole::Count => "number of draws",
         }
     }
 
@@ -98,7 +107,9 @@ impl BufferRole {
     pub(crate) const fn storage_mut(&mut self) -> Option<(&mut bool, bool)> {
         match self {
             BufferRole::Storage { read, write } => Some((read, *write)),
-            BufferRole::Uniform | BufferRole::Vertex | BufferRole::Index | BufferRole::Indirect => None,
+            BufferRole::Uniform | BufferRole::Vertex | BufferRole::Index | BufferRole::Indirect | BufferRole::Count => {
+                None
+            }
         }
     }
 }

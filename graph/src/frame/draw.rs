@@ -1,5 +1,6 @@
 //! Draws: the geometry of raster passes, and what is known of each kind.
 
+use super::IndirectDraws;
 use serde::{Deserialize, Serialize};
 use std::num::NonZero;
 
@@ -28,6 +29,8 @@ pub enum Draw {
     /// As `Vertices`; the counts stand in the pass's buffer of the role [`BufferRole::Indirect`]: a
     /// `VkDrawIndirectCommand`, or `VkDrawIndexedIndirectCommand` if the pass has an index buffer.
     Indirect,
+    /// As `Indirect`, several draws.
+    Indirects(IndirectDraws),
     /// Draws that the embedding program records inside the rendering scope. The program knows them by the pass's shader name.
     Custom,
 }
@@ -69,7 +72,9 @@ impl Draw {
             Draw::Sky => DrawRow { camera: true, vertex_shader: "sky.vert", ..NONE },
             Draw::FullScreen => DrawRow { full_screen: true, ..NONE },
             Draw::Vertices { .. } => DrawRow { own_vertices: true, vertex_shader: "vertices.vert", ..NONE },
-            Draw::Indirect => DrawRow { own_vertices: true, indirect: true, vertex_shader: "vertices.vert", ..NONE },
+            Draw::Indirect | Draw::Indirects(_) => {
+                DrawRow { own_vertices: true, indirect: true, vertex_shader: "vertices.vert", ..NONE }
+            }
             Draw::Custom => DrawRow { custom: true, ..NONE },
         }
     }
@@ -129,6 +134,27 @@ impl Draw {
             Draw::Vertices { count, instances } => Some([count, instances]),
             _ => None,
         }
+    }
+
+    /// The draws whose counts a buffer holds, if it draws such.
+    #[must_use]
+    pub const fn indirect(self) -> Option<IndirectDraws> {
+        match self {
+            Draw::Indirect => Some(IndirectDraws::ONE),
+            Draw::Indirects(draws) => Some(draws),
+            Draw::Objects(_)
+            | Draw::Casters(_)
+            | Draw::Sky
+            | Draw::FullScreen
+            | Draw::Vertices { .. }
+            | Draw::Custom => None,
+        }
+    }
+
+    /// Whether a buffer of the pass holds how many draws it makes.
+    #[must_use]
+    pub fn is_counted(self) -> bool {
+        self.indirect().is_some_and(|draws| draws.count.is_some())
     }
 
     /// The part of the shadows' reach for which it draws casters, if it does.

@@ -15,6 +15,7 @@ mod declared_use;
 mod draw;
 mod exact;
 mod index;
+mod indirect_draws;
 mod jitter;
 mod note_kind;
 mod output;
@@ -37,6 +38,7 @@ pub use decided_property::{DecidedBy, DecidedProperty, NamedValue, Property, Sub
 pub use declared_use::DeclaredUse;
 pub use draw::{Cascade, Draw, DrawList, Metres, Share};
 pub use index::{BufferIndex, ImageIndex, Resource};
+pub use indirect_draws::IndirectDraws;
 pub use jitter::{Jitter, LONGEST as LONGEST_JITTER};
 pub use note_kind::NoteKind;
 pub use output::Output;

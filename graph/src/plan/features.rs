@@ -2,7 +2,7 @@
 
 use super::{Image, Pass, Plan, RenderScope, Resource};
 use crate::device::{DYNAMIC_RENDERING, EVERY_PLAN_USES, INDEPENDENT_BLEND, Need, NeedKind, SEPARATE_LAYOUTS};
-use crate::frame::{EyeForm, Stereo};
+use crate::frame::{EyeForm, IndirectDraws, Stereo};
 use crate::shader::{ShaderInterfaces, ShaderProblem, needs_in_pass};
 use crate::vulkan::{Accesses, Aspects, BufferUsage, Layout, Stages, State, name_of};
 use serde::Serialize;
@@ -164,8 +164,9 @@ impl Plan {
 
     /// What a pass takes, but for its shader.
     fn pass(&self, found: &mut UsedFeatures, pass: &Pass) {
+        let of_draws = pass.draw.and_then(|draw| draw.indirect()).into_iter().flat_map(IndirectDraws::features);
         let of_blends = pass.blend.iter().filter_map(|blend| blend.feature());
-        for (name, what) in pass.raster.features().chain(of_blends) {
+        for (name, what) in pass.raster.features().chain(of_blends).chain(of_draws) {
             found.add(name, || format!("pass `{}`: {what}", pass.name));
         }
         for access in &pass.accesses {

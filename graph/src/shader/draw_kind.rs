@@ -47,7 +47,7 @@ impl DrawKind {
             Draw::Sky => DrawKind::Sky,
             Draw::FullScreen => DrawKind::FullScreen,
             Draw::Custom => DrawKind::Custom,
-            Draw::Vertices { .. } | Draw::Indirect => DrawKind::Vertices,
+            Draw::Vertices { .. } | Draw::Indirect | Draw::Indirects(_) => DrawKind::Vertices,
         }
     }
 

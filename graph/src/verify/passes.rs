@@ -5,7 +5,7 @@ use super::barriers::possible;
 use super::layouts::planes;
 use super::structure::is_of_file;
 use super::work::{Check, is_read_only, is_written};
-use crate::frame::{Blend, BufferRole, Cascade, Draw, Groups};
+use crate::frame::{Blend, BufferRole, Cascade, Draw, Groups, IndirectDraws};
 use crate::plan::names::ShownText;
 use crate::plan::{Access, Attachment, BindingKind, BufferAccess, Image, Pass, RenderScope};
 use crate::shader::MOST_PARTS;
@@ -135,10 +135,25 @@ impl<'p> Check<'_, 'p> {
         if let (Some([count, _]), true) = (pass.draw.and_then(Draw::counts), indexed) {
             self.holds(pass, BufferRole::Index, u64::from(count) * 4);
         }
-        if pass.draw.is_some_and(Draw::is_indirect) {
-            self.holds(pass, BufferRole::Indirect, if indexed { 20 } else { 16 });
+        if let Some(draws) = pass.draw.and_then(Draw::indirect) {
+            self.indirect(pass, draws, if indexed { 20 } else { 16 });
         }
         self.buffers(pass, by, SHADERS | Stages::VERTEX_INPUT | Stages::DRAW_INDIRECT);
+    }
+
+    /// Counts of draws, each of so many bytes, and their number lie within their buffers as Vulkan demands.
+    fn indirect(&mut self, pass: &Pass, draws: IndirectDraws, bytes: u32) {
+        let IndirectDraws { draws, offset, stride, count } = draws;
+        let stride = stride.unwrap_or(bytes);
+        let aligned = offset.is_multiple_of(4) && stride.is_multiple_of(4) && count.unwrap_or(0).is_multiple_of(4);
+        if draws == 0 || !aligned || stride < bytes {
+            self.wrong_pass(pass, "reads the counts of its draws where none can stand");
+        }
+        let between = u64::from(draws.saturating_sub(1)) * u64::from(stride);
+        self.holds(pass, BufferRole::Indirect, offset.saturating_add(between).saturating_add(bytes.into()));
+        if let Some(at) = count {
+            self.holds(pass, BufferRole::Count, at.saturating_add(4));
+        }
     }
 
     fn depth(&mut self, scope: &RenderScope, pass: &Pass) {
@@ -341,7 +356,7 @@ impl<'p> Check<'_, 'p> {
             ),
             Some(BufferRole::Vertex) => (Stages::VERTEX_INPUT, Accesses::VERTEX_ATTRIBUTE_READ),
             Some(BufferRole::Index) => (Stages::VERTEX_INPUT, Accesses::INDEX_READ),
-            Some(BufferRole::Indirect) => (Stages::DRAW_INDIRECT, Accesses::INDIRECT_COMMAND_READ),
+            Some(BufferRole::Indirect | BufferRole::Count) => (Stages::DRAW_INDIRECT, Accesses::INDIRECT_COMMAND_READ),
             None => (Stages::all(), access.accesses & TRANSFER),
         };
         let (possible, made) = by.known(stages & possible, access.accesses);

@@ -60,7 +60,7 @@ pub fn interface(draw: Draw) -> DrawInterface {
                 ..DrawInterface::default()
             }
         }
-        Draw::Sky | Draw::FullScreen | Draw::Vertices { .. } | Draw::Indirect => {
+        Draw::Sky | Draw::FullScreen | Draw::Vertices { .. } | Draw::Indirect | Draw::Indirects(_) => {
             DrawInterface { supplied, ..DrawInterface::default() }
         }
         Draw::Custom => DrawInterface::default(),

@@ -320,7 +320,7 @@ impl DrawSource for SceneDrawSource {
                 Ok(1)
             }
             // The draw of the pass's own vertices follows.
-            Draw::Vertices { .. } | Draw::Indirect => {
+            Draw::Vertices { .. } | Draw::Indirect | Draw::Indirects(_) => {
                 recorder.bind_group(FRAME_SET, self.group_and_visible(recorder)?.0);
                 Ok(1)
             }

@@ -47,9 +47,8 @@ typedef struct {
     FramewrightDevice *device;
 } Made;
 
-static Made made(VkInstance instance, VkPhysicalDevice physical, const FramewrightNames *used) {
-    Made made;
-    check(framewright_features_open(instance, physical, used, &made.features));
+static Made made_of(VkInstance instance, VkPhysicalDevice physical, FramewrightFeatures *features) {
+    Made made = {.features = features};
     FramewrightNames extensions = framewright_features_extensions(made.features);
     const float priority = 1;
     VkDeviceQueueCreateInfo queue_info = {VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, NULL, 0, 0, 1, &priority};
@@ -66,6 +65,12 @@ static Made made(VkInstance instance, VkPhysicalDevice physical, const Framewrig
         .queue_count = 1};
     check(framewright_device_adopt(&program, &made.device));
     return made;
+}
+
+static Made made(VkInstance instance, VkPhysicalDevice physical, const FramewrightNames *used) {
+    FramewrightFeatures *features;
+    check(framewright_features_open(instance, physical, used, &features));
+    return made_of(instance, physical, features);
 }
 
 static void destroy(Made made) {
@@ -112,6 +117,28 @@ int main(void) {
     check(framewright_device_dead_images(all.device, count, &dead));
     expect(dead > 0, "the images of a renderer die with it");
     destroy(all);
+
+    /* Before there is a device of the program's, one for planning tells the same. */
+    FramewrightDevice *planning;
+    expect(framewright_device_open_physical(VK_NULL_HANDLE, NULL, physical, NULL, &planning) == FRAMEWRIGHT_STATUS_MISUSE,
+           "no instance");
+    check(framewright_device_open_physical(instance, NULL, physical, NULL, &planning));
+    renderer = renderer_of(planning, scene);
+    Features planned = {.count = 0};
+    check(framewright_renderer_features(renderer, feature, &planned));
+    expect(planned.count == used.count, "planning tells as many features");
+    for (size_t at = 0; at < used.count; ++at) {
+        expect(strcmp(planned.names[at], used.names[at]) == 0, planned.names[at]);
+    }
+    FramewrightFeatures *features;
+    check(framewright_renderer_device_features(renderer, &features));
+    framewright_renderer_free(renderer);
+    framewright_device_free(planning);
+    Made from_planning = made_of(instance, physical, features);
+    renderer = renderer_of(from_planning.device, scene);
+    check(framewright_renderer_frame(renderer, NULL));
+    framewright_renderer_free(renderer);
+    destroy(from_planning);
 
     /* One with exactly these draws. */
     FramewrightNames names = {used.names, used.count};

@@ -83,4 +83,11 @@ room! {
     /// A device that the program made itself has the features that the program switched on. The message names each that is missing, and
     /// what uses it. `Plan::features` tells all that a Plan uses before there is a device.
     NOT_SWITCHED_ON = 1115,
+
+    /// The device can't make the indirect draws of a pass.
+    ///
+    /// Several draws at once (`multiDrawIndirect`), a number of draws in a buffer (`drawIndirectCount`) and how many there may be
+    /// (`maxDrawIndirectCount`) aren't the same on every device. The message names what is missing. A `when` that asks `device` lets a pass run only
+    /// where it can; a pass with one draw, `Indirect("buffer")`, can everywhere.
+    DRAW_NEEDS = 1116,
 }

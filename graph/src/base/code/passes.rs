@@ -140,4 +140,10 @@ room! {
     /// Outputs, imports and images with a history are others in each frame, and `Dynamic` images change their size. Let the pass
     /// write an image of its own, and another one copy that in each frame.
     KEPT_UNFIT = 724,
+
+    /// Counts of draws can't stand so in a buffer.
+    ///
+    /// Counts of `Indirect` draws, and their number, stand at multiples of 4 bytes. From counts to counts there are at least 16 bytes, those of a
+    /// `VkDrawIndirectCommand`, or with `index` 20, those of a `VkDrawIndexedIndirectCommand`.
+    INDIRECT_UNFIT = 728,
 }

@@ -32,6 +32,7 @@ pub(crate) fn check_needs(frame: &Frame, live: &[u32], device: &Profile) -> Resu
         }
     }
     for pass in live.iter().map(|pass| &frame.passes[*pass as usize]) {
+        draws(pass, device, &mut errors);
         raster(pass, device, &mut errors);
         samplers(frame, pass, device, &mut errors);
     }
@@ -57,6 +58,22 @@ fn needs(pass: &Pass, device: &Profile, errors: &mut Vec<Diagnostic>, mut tell: 
             tell(format!("whether {} is valid SPIR-V isn't known: {words}", need.place));
         }
     }
+}
+
+/// Reports indirect draws that the device doesn't make.
+fn draws(pass: &Pass, device: &Profile, errors: &mut Vec<Diagnostic>) {
+    let Some(draws) = pass.work.draw().and_then(|(draw, _)| draw.indirect()) else { return };
+    let missing = draws.features().find(|(feature, _)| !device.has_feature(feature));
+    let most = device.limits.as_ref().map(|limits| limits.of(Limit::IndirectDraws));
+    let what = match (missing, most) {
+        (Some((feature, what)), _) => format!("{what} needs the feature {feature}"),
+        (None, Some(most)) if u64::from(draws.draws) > most => {
+            format!("it makes {} draws, and {most} are allowed ({})", draws.draws, Limit::IndirectDraws.name())
+        }
+        (None, _) => return,
+    };
+    let message = format!("pass `{}` can't be drawn on `{}`: {what}", pass.name, device.name);
+    errors.push(Diagnostic::new(Code::DRAW_NEEDS, pass.span, message));
 }
 
 /// Reports raster state that the device doesn't have.

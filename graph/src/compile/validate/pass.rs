@@ -5,7 +5,7 @@ use crate::base::{Code, Diagnostic, Span};
 use crate::frame::check::raster::{self, RasterPlace};
 use crate::frame::check::samplers;
 use crate::frame::check::targets::{Target, agree, not_forwarded, undrawable, without_depth};
-use crate::frame::{Access, Frame, Image, ImageIndex, Lifetime, Pass, Resource, VisitAccess, check};
+use crate::frame::{Access, Draw, Frame, Image, ImageIndex, Lifetime, Pass, Resource, VisitAccess, check};
 use crate::vulkan::{Stages, Subresources};
 
 /// The check of a pass.
@@ -180,6 +180,19 @@ impl Check<'_> {
                 pass.span,
                 "needs one buffer of counts if it is indirect, and else none",
             );
+        }
+        let counted = pass.buffers.iter().filter(|used| used.role.is_count()).count();
+        if counted != usize::from(pass.work.draws(Draw::is_counted)) {
+            return self.wrong(
+                Code::INDIRECT_COUNTS,
+                pass.span,
+                "needs one buffer for the number of its draws if that is in a buffer, and else none",
+            );
+        }
+        let indexed = pass.buffers.iter().any(|used| used.role.is_index());
+        let draws = pass.work.draw().and_then(|(draw, _)| draw.indirect());
+        if let Some(fault) = draws.and_then(|draws| draws.fault(indexed)) {
+            return self.wrong(Code::INDIRECT_UNFIT, pass.span, &fault);
         }
         self.transfers();
     }

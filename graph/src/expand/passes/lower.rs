@@ -169,6 +169,7 @@ fn buffers(pass: &language::Pass, interface: Option<&ShaderInterface>, raster: b
         (pass.vertex.as_ref(), BufferRole::Vertex),
         (pass.index.as_ref(), BufferRole::Index),
         (indirect, BufferRole::Indirect),
+        (pass.work.count(), BufferRole::Count),
     ];
     for (part, role) in roles {
         lowered.buffers.extend(part.map(|part| storage::used(part, None, role, Stages::empty())));

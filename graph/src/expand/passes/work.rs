@@ -73,7 +73,7 @@ pub(in crate::expand) fn check(
     errors: &mut Vec<Diagnostic>,
 ) {
     match &pass.work {
-        language::Work::Draw { draw, counts, .. } => counts_fit(resources, pass, (*draw, counts.as_ref()), errors),
+        language::Work::Draw { draw, .. } => counts_fit(resources, pass, *draw, errors),
         language::Work::Dispatch { groups, .. } => {
             dispatch_fits(resources, pass, groups, lowered, interface, errors);
         }
@@ -86,17 +86,22 @@ pub(in crate::expand) fn check(
 }
 
 /// Indices and counts lie within their buffers.
-fn counts_fit(
-    resources: &Resources<'_>,
-    pass: &language::Pass,
-    (draw, counts): (Draw, Option<&language::BufferPart>),
-    errors: &mut Vec<Diagnostic>,
-) {
+fn counts_fit(resources: &Resources<'_>, pass: &language::Pass, draw: Draw, errors: &mut Vec<Diagnostic>) {
     let indexed = pass.index.is_some();
-    if let Some(part) = counts {
-        // VkDrawIndexedIndirectCommand and VkDrawIndirectCommand.
-        let (bytes, what) = if indexed { (20, "VkDrawIndexedIndirectCommand") } else { (16, "VkDrawIndirectCommand") };
-        resources.holds(&part.buffer, bytes, &format!("the counts of a draw ({what})"), part.buffer.span, errors);
+    if let (Some(draws), Some(part)) = (draw.indirect(), pass.work.counts()) {
+        if let Some(fault) = draws.fault(indexed) {
+            errors.push(Diagnostic::new(Code::INDIRECT_UNFIT, part.buffer.span, fault));
+        }
+        let command = if indexed { "VkDrawIndexedIndirectCommand" } else { "VkDrawIndirectCommand" };
+        let what = match draws.draws {
+            1 => format!("the counts of a draw ({command})"),
+            many => format!("the counts of {many} draws ({command})"),
+        };
+        resources.holds(&part.buffer, draws.end(indexed), &what, part.buffer.span, errors);
+    }
+    if let (Some(at), Some(part)) = (draw.indirect().and_then(|draws| draws.count), pass.work.count()) {
+        let what = format!("the number of draws at byte {at}");
+        resources.holds(&part.buffer, at.saturating_add(4), &what, part.buffer.span, errors);
     }
     if let (Some(part), Some([count, _])) = (&pass.index, draw.counts()) {
         let what = format!("{count} indices of 4 bytes");

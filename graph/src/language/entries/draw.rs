@@ -2,7 +2,7 @@
 
 use super::casters;
 use super::values::MANY;
-use super::{parts, shader};
+use super::{indirect, parts, shader};
 use crate::base::Code;
 use crate::frame::{Draw, DrawList};
 use crate::language::model::Work;
@@ -45,9 +45,10 @@ static DRAWS: Words = Words {
         ),
         Word::new(
             "Indirect",
-            &[WordContents::Values(&[parts::BUFFER])],
-            &["Indirect(\"buffer\")"],
-            "As many as a buffer says: a `VkDrawIndirectCommand`, with `index` a `VkDrawIndexedIndirectCommand`.",
+            &[WordContents::Values(&[parts::BUFFER]), WordContents::Fields(indirect::fields)],
+            &["Indirect(\"buffer\")", indirect::FORM],
+            "As many as a buffer says: a `VkDrawIndirectCommand`, with `index` a `VkDrawIndexedIndirectCommand`; or several draws, each as it \
+             says.",
         ),
     ],
 };
@@ -102,18 +103,24 @@ impl Context<'_> {
                     // `FullScreen(fragment: "post.spv")` has the stages in the word's own parentheses.
                     (None, stages) => self.reader.stages(stages?)?,
                 };
-                return Some(FieldValue::Constant(Work::Draw { draw: Draw::FullScreen, counts: None, shader }));
+                let draw = Draw::FullScreen;
+                return Some(FieldValue::Constant(Work::Draw { draw, counts: None, count: None, shader }));
             }
             "Sky" => {
                 self.reader.bare(word, rest)?;
                 if shader.is_none() {
                     let shader = Name { text: "sky".into(), span: leaf.span() };
-                    return Some(FieldValue::Constant(Work::Draw { draw: Draw::Sky, counts: None, shader }));
+                    let draw = Draw::Sky;
+                    return Some(FieldValue::Constant(Work::Draw { draw, counts: None, count: None, shader }));
                 }
-                (FieldValue::Constant((Draw::Sky, None)), "draws the sky")
+                (FieldValue::Constant((Draw::Sky, None, None)), "draws the sky")
             }
-            "Objects" => (FieldValue::Constant((Draw::Objects(list(self.reader, leaf, rest)?), None)), "draws objects"),
-            "Casters" => (self.casters(leaf, rest)?.map(|cascade| (Draw::Casters(cascade), None)), "draws objects"),
+            "Objects" => {
+                (FieldValue::Constant((Draw::Objects(list(self.reader, leaf, rest)?), None, None)), "draws objects")
+            }
+            "Casters" => {
+                (self.casters(leaf, rest)?.map(|cascade| (Draw::Casters(cascade), None, None)), "draws objects")
+            }
             "Vertices" => {
                 let (count, instances) = match rest.and_then(Leaf::tuple) {
                     Some([count, instances]) => (count, Some(instances)),
@@ -128,12 +135,10 @@ impl Context<'_> {
                 let once = Some(FieldValue::Constant(1));
                 let instances = instances.map_or(once, |leaf| self.whole(leaf, "number of instances", range));
                 let vertices = (count?, instances?);
-                (combined(vertices, |(count, instances)| (Draw::Vertices { count, instances }, None)), "draws vertices")
+                let draw = |(count, instances)| (Draw::Vertices { count, instances }, None, None);
+                (combined(vertices, draw), "draws vertices")
             }
-            _ => {
-                let [buffer]: [Leaf<'_>; 1] = self.reader.inside(leaf, rest, "Indirect(\"buffer\")")?;
-                (self.buffer_part(buffer)?.map(|part| (Draw::Indirect, Some(part))), "draws vertices")
-            }
+            _ => (self.indirect(leaf, rest)?, "draws vertices"),
         };
         let Some(shader) = shader else {
             self.reader.wrong(
@@ -145,7 +150,7 @@ impl Context<'_> {
             return None;
         };
         let shader = self.reader.shader(shader)?;
-        Some(draw.map(move |(draw, counts)| Work::Draw { draw, counts, shader: shader.clone() }))
+        Some(draw.map(move |(draw, counts, count)| Work::Draw { draw, counts, count, shader: shader.clone() }))
     }
 }
 

@@ -13,6 +13,7 @@ pub(crate) mod draw;
 pub(crate) mod firsts;
 pub(crate) mod fragments;
 pub(crate) mod images;
+mod indirect;
 pub(crate) mod lifetimes;
 pub(crate) mod list;
 pub(crate) mod outputs;

@@ -20,7 +20,7 @@ pub(crate) enum Use {
     Uniform,
     /// It holds vertex attributes or indices.
     Drawn,
-    /// It holds the counts of an indirect draw or dispatch.
+    /// It holds the counts of an indirect draw or dispatch, or the number of draws.
     Counts,
     /// Workgroups are counted by its texels: its size alone matters.
     Measured,
@@ -98,7 +98,8 @@ impl Pass {
         });
         let uniform = self.uniform.iter().map(|uniform| (PartRef::Buffer(&uniform.part), Use::Uniform));
         let drawn = self.vertex.iter().chain(&self.index).map(|part| (PartRef::Buffer(part), Use::Drawn));
-        let counts = self.work.counts().map(|part| (PartRef::Buffer(part), Use::Counts));
+        let counts =
+            self.work.counts().into_iter().chain(self.work.count()).map(|part| (PartRef::Buffer(part), Use::Counts));
         let measured = self.work.measured().map(|part| (PartRef::Image(part), Use::Measured));
         let targets = self.color.iter().map(|color| &color.part).chain(self.depth.as_ref().map(|depth| &depth.part));
         let targets = targets.map(|part| (PartRef::Image(part), Use::Target));

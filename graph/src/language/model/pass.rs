@@ -121,6 +121,8 @@ pub enum Work {
         draw: Draw,
         /// The counts of an indirect draw.
         counts: Option<BufferPart>,
+        /// The number of draws, if a buffer holds it.
+        count: Option<BufferPart>,
         /// The shader's name.
         shader: Name,
     },
@@ -200,6 +202,16 @@ impl Work {
                 Groups::Count(_) | Groups::Invocations(_) | Groups::Texels(_) => None,
             },
             Work::Copy { .. } | Work::Blit { .. } | Work::Fill { .. } | Work::Custom { .. } => None,
+        }
+    }
+
+    /// The buffer of the number of draws, if one holds it.
+    pub const fn count(&self) -> Option<&BufferPart> {
+        match self {
+            Work::Draw { count, .. } => count.as_ref(),
+            Work::Dispatch { .. } | Work::Copy { .. } | Work::Blit { .. } | Work::Fill { .. } | Work::Custom { .. } => {
+                None
+            }
         }
     }
 

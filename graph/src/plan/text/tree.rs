@@ -8,7 +8,9 @@ use super::words;
 use super::words::{
     bound, bytes, cause, fill_value, hazard, moved, needless_if, on_chip, samples, size, words_of_list,
 };
-use crate::frame::{Blend, BufferRole, Draw, DrawList, EyeForm, Groups, Property, StencilState, Stereo, Subject};
+use crate::frame::{
+    Blend, BufferRole, Draw, DrawList, EyeForm, Groups, IndirectDraws, Property, StencilState, Stereo, Subject,
+};
 use crate::plan::names::ShownText;
 use crate::plan::{
     About, Access, Attachment, AttachmentKind, AttachmentResolve, BufferAccess, Cause, Entry, EntryKind, Image,
@@ -227,6 +229,11 @@ impl<'p> Text<'p> {
             (Some(Draw::FullScreen), _) => "draws the full screen".to_owned(),
             (Some(Draw::Vertices { count, instances }), _) => format!("draws {count} × {instances} vertices"),
             (Some(Draw::Indirect), _) => "draws as many vertices as a buffer says".to_owned(),
+            (Some(Draw::Indirects(IndirectDraws { draws, count, .. })), _) => {
+                let most = if count.is_some() { "as many draws as a buffer says, at most " } else { "" };
+                let draws = if count.is_some() { draws.to_string() } else { format!("{draws} draws") };
+                format!("makes {most}{draws}, of as many vertices as a buffer says")
+            }
             (Some(Draw::Custom) | None, None) => "is recorded by the program".to_owned(),
             (Some(Draw::Custom) | None, Some(Groups::Count([x, y, z]))) => format!("dispatches {x}×{y}×{z} groups"),
             (Some(Draw::Custom) | None, Some(Groups::Invocations([x, y, z]))) => {

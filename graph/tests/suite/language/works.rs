@@ -4,7 +4,8 @@
 use crate::testing::pipelines::{INPUTS, frame, right, set, wrong};
 use framewright_graph::expand::Inputs;
 use framewright_graph::frame::{
-    BufferIndex, BufferRole, Draw, Frame, Groups, ImageIndex, ParamValue, Pass, Resource, StencilState, Work,
+    BufferIndex, BufferRole, Draw, Frame, Groups, ImageIndex, IndirectDraws, ParamValue, Pass, Resource, StencilState,
+    Work,
 };
 use framewright_graph::vulkan::{Aspects, CompareOp, FillValue, Filter, Stages, StencilOp, Subresources};
 
@@ -98,6 +99,73 @@ fn an_indirect_dispatch_and_draw_read_their_counts() {
     let roles: Vec<BufferRole> = draw.buffers.iter().map(|used| used.role).collect();
     assert_eq!(roles, [BufferRole::Vertex, BufferRole::Index, BufferRole::Indirect]);
     assert!(matches!(draw.work, Work::Draw { draw: Draw::Indirect, .. }));
+}
+
+#[test]
+fn do_11_several_indirect_draws_say_how_many_they_are_and_where_they_stand() {
+    let draws = |draw: &str, index: &str| {
+        pass(&format!(
+            r#"draw: {draw}, shader: "particles", vertex: "bins", {index}
+               color: [(image: "screen", clear: (0.0, 0.0, 0.0, 1.0))]"#
+        ))
+    };
+    let buffers = |pass: &Pass| pass.buffers.iter().map(|used| (used.role, used.buffer)).collect::<Vec<_>>();
+    let (bins, counts) = (BufferIndex(2), BufferIndex(3));
+    let all = draws(r#"Indirect(commands: "bins", draws: "count / 20")"#, "");
+    let expected = IndirectDraws { draws: 50, ..IndirectDraws::ONE };
+    assert!(all.work.draws(|draw| draw == Draw::Indirects(expected)), "{:?}", all.work);
+    assert_eq!(buffers(&all), [(BufferRole::Vertex, bins), (BufferRole::Indirect, bins)]);
+    let counted = draws(
+        r#"Indirect(commands: "bins", draws: 30, offset: 64, stride: 32, count: "counts", count_offset: 28)"#,
+        r#"index: "bins","#,
+    );
+    let expected = IndirectDraws { draws: 30, offset: 64, stride: Some(32), count: Some(28) };
+    assert!(counted.work.draws(|draw| draw == Draw::Indirects(expected)), "{:?}", counted.work);
+    let roles = [BufferRole::Vertex, BufferRole::Index, BufferRole::Indirect].map(|role| (role, bins));
+    assert_eq!(buffers(&counted), [&roles[..], &[(BufferRole::Count, counts)]].concat());
+    let one = draws(r#"Indirect(commands: "counts", draws: 1, count: "counts", offset: 4)"#, "");
+    let expected = IndirectDraws { draws: 1, offset: 4, stride: None, count: Some(0) };
+    assert!(one.work.draws(|draw| draw == Draw::Indirects(expected)), "{:?}", one.work);
+}
+
+#[test]
+fn do_11_indirect_draws_beyond_their_buffers_are_refused_at_their_place() {
+    let refused = |draw: &str, index: &str| {
+        let text = format!(
+            r#"Pipeline(version: 1, settings: [{SETTINGS}], images: [{IMAGES}], buffers: [{BUFFERS}],
+passes: [(name: "draw", draw: {draw}, shader: "particles", vertex: "bins", {index} color: [(image: "screen", clear: (0.0, 0.0, 0.0, 1.0))])],
+outputs: ["screen"])"#
+        );
+        let answer = frame(&text, &INPUTS).err().unwrap_or_default();
+        assert!(answer.contains(":2:"), "its line is missing: {answer}");
+        answer
+    };
+    for (draw, index, said) in [
+        (r#"Indirect(commands: "bins", draws: 65)"#, "", "the counts of 65 draws (VkDrawIndirectCommand)"),
+        (
+            r#"Indirect(commands: "bins", draws: 52)"#,
+            r#"index: "bins","#,
+            "the counts of 52 draws (VkDrawIndexedIndirectCommand)",
+        ),
+        (r#"Indirect(commands: "bins", draws: 2, offset: 1000)"#, "", "1032"),
+        (r#"Indirect(commands: "bins", draws: 2, offset: 6)"#, "", "not at 6"),
+        (r#"Indirect(commands: "bins", draws: 2, stride: 16)"#, r#"index: "bins","#, "at least 20, and not 16"),
+        (
+            r#"Indirect(commands: "bins", draws: 2, count: "counts", count_offset: 32)"#,
+            "",
+            "the number of draws at byte 32",
+        ),
+        (
+            r#"Indirect(commands: "bins", draws: 2, count_offset: 4)"#,
+            "",
+            "`count_offset` means nothing without `count`",
+        ),
+        (r#"Indirect(commands: "bins", draws: 0)"#, "", "number of draws"),
+        (r#"Indirect(commands: "bins")"#, "", "draws"),
+    ] {
+        let answer = refused(draw, index);
+        assert!(answer.contains(said), "{draw}: {answer}");
+    }
 }
 
 #[test]

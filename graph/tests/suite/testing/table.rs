@@ -579,7 +579,9 @@ impl ShaderInterfaces for Table {
             },
             Some(Draw::Sky) => DrawInterface { supplied: vec![view], ..DrawInterface::default() },
             Some(Draw::FullScreen) => DrawInterface { supplied: vec![view, lights], ..DrawInterface::default() },
-            Some(Draw::Vertices { .. } | Draw::Indirect | Draw::Custom) => DrawInterface::default(),
+            Some(Draw::Vertices { .. } | Draw::Indirect | Draw::Indirects(_) | Draw::Custom) => {
+                DrawInterface::default()
+            }
         }
     }
 }
