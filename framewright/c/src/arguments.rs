@@ -1,7 +1,7 @@
 //! What C hands in and gets back, checked as far as it can be.
 
 use crate::status::Problem;
-use std::ffi::{CStr, c_char};
+use std::ffi::{CStr, c_char, c_void};
 use std::mem::MaybeUninit;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr;
@@ -83,6 +83,27 @@ pub(crate) unsafe fn list<'a, T>(pointer: *const T, count: usize, what: &str) ->
             Ok(unsafe { std::slice::from_raw_parts(pointer, count) })
         }
         (false, _) => Err(Problem::Misuse(format!("`{what}` has {count} values, and at most {MOST_VALUES} are taken"))),
+    }
+}
+
+/// `count` bytes, at most `most`; NULL is right if there are none.
+///
+/// # Safety
+/// The pointer is NULL, or `count` bytes stand there for `'a`.
+pub(crate) unsafe fn bytes<'a>(
+    pointer: *const c_void,
+    count: usize,
+    most: usize,
+    what: &str,
+) -> Result<&'a [u8], Problem> {
+    match (pointer.is_null(), count) {
+        (_, 0) => Ok(&[]),
+        (true, _) => Err(null(what)),
+        (false, count) if count > most => {
+            Err(Problem::Misuse(format!("`{what}` has {count} bytes, and at most {most} are taken")))
+        }
+        // SAFETY: the caller's word.
+        (false, _) => Ok(unsafe { std::slice::from_raw_parts(pointer.cast(), count) }),
     }
 }
 
