@@ -173,41 +173,6 @@ static uint32_t record(void *context, const FramewrightPass *pass) {
     }
 }
 
-/* Makes images of one texel each readable, the second with this green. */
-static void fill(const OwnDevice *own, const OwnImage *images, float green) {
-    VkCommandPoolCreateInfo pool_info = {VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, NULL, 0, own->queue.family};
-    VkCommandPool pool;
-    vk(vkCreateCommandPool(own->raw, &pool_info, NULL, &pool));
-    VkCommandBufferAllocateInfo allocate = {
-        VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, NULL, pool, VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
-    VkCommandBuffer commands;
-    vk(vkAllocateCommandBuffers(own->raw, &allocate, &commands));
-    VkCommandBufferBeginInfo begin = {VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, .pNext = NULL};
-    vk(vkBeginCommandBuffer(commands, &begin));
-    for (int number = 0; number < 2; ++number) {
-        VkImageMemoryBarrier barrier = {
-            .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER, .dstAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
-            .newLayout = VK_IMAGE_LAYOUT_GENERAL, .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
-            .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED, .image = images[number].image,
-            .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
-        vkCmdPipelineBarrier(
-            commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, NULL, 0, NULL, 1, &barrier);
-        VkClearColorValue color = {.float32 = {1, number == 1 ? green : 1, 1, 1}};
-        vkCmdClearColorImage(commands, barrier.image, VK_IMAGE_LAYOUT_GENERAL, &color, 1, &barrier.subresourceRange);
-        barrier.srcAccessMask = barrier.dstAccessMask;
-        barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT;
-        barrier.oldLayout = VK_IMAGE_LAYOUT_GENERAL;
-        barrier.newLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-        vkCmdPipelineBarrier(
-            commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, 0, 0, NULL, 0, NULL, 1, &barrier);
-    }
-    vk(vkEndCommandBuffer(commands));
-    VkSubmitInfo submit = {.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands};
-    vk(vkQueueSubmit(own->queue.queue, 1, &submit, VK_NULL_HANDLE));
-    vk(vkQueueWaitIdle(own->queue.queue));
-    vkDestroyCommandPool(own->raw, pool, NULL);
-}
-
 /* Compares an output with what the program gave. */
 static void compare(FramewrightRenderer *renderer, const char *name, const uint8_t expected[SIZE][SIZE][4]) {
     FramewrightTexels texels;
@@ -260,25 +225,11 @@ int main(void) {
         .camera = filled_buffer(&own, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, CAMERA, sizeof CAMERA),
         .materials = filled_buffer(&own, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, MATERIALS, sizeof MATERIALS)};
 
-    /* Two textures and a sampler. */
-    VkImageCreateInfo image_info = {
-        .sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO, .imageType = VK_IMAGE_TYPE_2D, .format = VK_FORMAT_R8G8B8A8_UNORM,
-        .extent = {1, 1, 1}, .mipLevels = 1, .arrayLayers = 1, .samples = VK_SAMPLE_COUNT_1_BIT,
-        .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT};
-    OwnImage images[2] = {own_image(&own, &image_info), own_image(&own, &image_info)};
-    fill(&own, images, 102.0f / 255.0f);
-    VkSamplerCreateInfo sampler_info = {.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
-    VkSampler sampler;
-    vk(vkCreateSampler(own.raw, &sampler_info, NULL, &sampler));
-    VkDescriptorImageInfo views[2];
-    for (int number = 0; number < 2; ++number) {
-        VkImageViewCreateInfo view_info = {
-            .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO, .image = images[number].image, .viewType = VK_IMAGE_VIEW_TYPE_2D,
-            .format = VK_FORMAT_R8G8B8A8_UNORM, .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
-        views[number] = (VkDescriptorImageInfo){sampler, VK_NULL_HANDLE, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-        vk(vkCreateImageView(own.raw, &view_info, NULL, &views[number].imageView));
-    }
-
+    /* Of the second texture the green is seen. */
+    const OwnImage images[] = {
+        own_texel(&own, (VkClearColorValue){.float32 = {1, 1, 1, 1}}),
+        own_texel(&own, (VkClearColorValue){.float32 = {1, 102.0f / 255.0f, 1, 1}})};
+    const VkDescriptorImageInfo views[] = {own_view(&own, images[0]), own_view(&own, images[1])};
     const VkDescriptorBufferInfo camera = {program.camera.buffer, 0, sizeof CAMERA};
     const VkDescriptorBufferInfo materials = {program.materials.buffer, 0, sizeof MATERIALS};
     const FramewrightBinding of_camera = {.binding = 0, .buffer = &camera};
@@ -310,10 +261,9 @@ int main(void) {
 
     framewright_renderer_free(renderer);
     for (int number = 0; number < 2; ++number) {
-        vkDestroyImageView(own.raw, views[number].imageView, NULL);
+        free_view(&own, views[number]);
         free_image(&own, images[number]);
     }
-    vkDestroySampler(own.raw, sampler, NULL);
     free_buffer(&own, program.places);
     free_buffer(&own, program.instances);
     free_buffer(&own, program.indices);

@@ -184,4 +184,59 @@ static inline void free_image(const OwnDevice *own, OwnImage made) {
     vkFreeMemory(own->raw, made.memory, NULL);
 }
 
+/* An image of one texel that shaders read, in this colour. */
+static inline OwnImage own_texel(const OwnDevice *own, VkClearColorValue color) {
+    VkImageCreateInfo image_info = {
+        .sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO, .imageType = VK_IMAGE_TYPE_2D, .format = VK_FORMAT_R8G8B8A8_UNORM,
+        .extent = {1, 1, 1}, .mipLevels = 1, .arrayLayers = 1, .samples = VK_SAMPLE_COUNT_1_BIT,
+        .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT};
+    OwnImage made = own_image(own, &image_info);
+    VkCommandPoolCreateInfo pool_info = {VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, NULL, 0, own->queue.family};
+    VkCommandPool pool;
+    vk(vkCreateCommandPool(own->raw, &pool_info, NULL, &pool));
+    VkCommandBufferAllocateInfo allocate = {
+        VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, NULL, pool, VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
+    VkCommandBuffer commands;
+    vk(vkAllocateCommandBuffers(own->raw, &allocate, &commands));
+    VkCommandBufferBeginInfo begin = {VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, .pNext = NULL};
+    vk(vkBeginCommandBuffer(commands, &begin));
+    VkImageMemoryBarrier barrier = {
+        .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER, .dstAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT,
+        .newLayout = VK_IMAGE_LAYOUT_GENERAL, .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED,
+        .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED, .image = made.image,
+        .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
+    vkCmdPipelineBarrier(
+        commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, NULL, 0, NULL, 1, &barrier);
+    vkCmdClearColorImage(commands, made.image, VK_IMAGE_LAYOUT_GENERAL, &color, 1, &barrier.subresourceRange);
+    barrier.srcAccessMask = barrier.dstAccessMask;
+    barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT;
+    barrier.oldLayout = VK_IMAGE_LAYOUT_GENERAL;
+    barrier.newLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    vkCmdPipelineBarrier(
+        commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, 0, 0, NULL, 0, NULL, 1, &barrier);
+    vk(vkEndCommandBuffer(commands));
+    VkSubmitInfo submit = {.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands};
+    vk(vkQueueSubmit(own->queue.queue, 1, &submit, VK_NULL_HANDLE));
+    vk(vkQueueWaitIdle(own->queue.queue));
+    vkDestroyCommandPool(own->raw, pool, NULL);
+    return made;
+}
+
+/* A view of such an image, with a sampler of its own. */
+static inline VkDescriptorImageInfo own_view(const OwnDevice *own, OwnImage image) {
+    VkSamplerCreateInfo sampler_info = {.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
+    VkImageViewCreateInfo view_info = {
+        .sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO, .image = image.image, .viewType = VK_IMAGE_VIEW_TYPE_2D,
+        .format = VK_FORMAT_R8G8B8A8_UNORM, .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
+    VkDescriptorImageInfo made = {.imageLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    vk(vkCreateSampler(own->raw, &sampler_info, NULL, &made.sampler));
+    vk(vkCreateImageView(own->raw, &view_info, NULL, &made.imageView));
+    return made;
+}
+
+static inline void free_view(const OwnDevice *own, VkDescriptorImageInfo made) {
+    vkDestroyImageView(own->raw, made.imageView, NULL);
+    vkDestroySampler(own->raw, made.sampler, NULL);
+}
+
 #endif
