@@ -2,7 +2,7 @@
 
 use crate::arguments::{handle, output};
 use crate::last_error::{call, text};
-use crate::renderer::{FramewrightRenderer, State, with};
+use crate::renderer::{FramewrightRenderer, State, locked, with};
 use crate::status::FramewrightStatus;
 use std::ffi::c_char;
 use std::sync::Mutex;
@@ -15,24 +15,15 @@ pub unsafe extern "C" fn framewright_renderer_clone(
     renderer: *mut FramewrightRenderer,
     other: *mut *mut FramewrightRenderer,
 ) -> FramewrightStatus {
-    let mut made = None;
     // SAFETY: the caller's word.
-    let status = unsafe {
-        with(renderer, |state| {
-            let cloned = State {
-                scene: state.scene.clone(),
-                secondary: state.secondary.clone(),
-                ..State::of(state.renderer.try_clone()?, state.draws.clone())
-            };
-            made = Some(cloned);
-            Ok(())
+    call(|| unsafe {
+        handle(other, "other", || {
+            let state = locked(renderer)?;
+            let made = State::of(state.renderer.try_clone()?, state.draws.clone());
+            let (scene, secondary) = (state.scene.clone(), state.secondary.clone());
+            Ok(FramewrightRenderer(Mutex::new(State { scene, secondary, ..made })))
         })
-    };
-    match made {
-        // SAFETY: the caller's word.
-        Some(made) => call(|| unsafe { handle(other, "other", || Ok(FramewrightRenderer(Mutex::new(made)))) }),
-        None => status,
-    }
+    })
 }
 
 /// Makes all Vulkan pipelines that the next frame needs, on several threads. The device keeps them while there is a Plan, so that another renderer that

@@ -116,6 +116,12 @@ fn aligned<T>(pointer: *const T, what: &str) -> Result<(), Problem> {
     Err(Problem::Misuse(format!("`{what}` is no pointer to such a value: its address is no multiple of {of}")))
 }
 
+/// The value of this number.
+pub(crate) fn one_of<'v, T>(all: &'v [T], number: u32, what: &str) -> Result<&'v T, Problem> {
+    let found = usize::try_from(number).ok().and_then(|number| all.get(number));
+    found.ok_or_else(|| Problem::Misuse(format!("there is no `{what}` of the number {number}")))
+}
+
 /// A number from 0 on.
 pub(crate) fn from_0(number: f64, what: &str) -> Result<f64, Problem> {
     if number.is_finite() && number >= 0.0 {

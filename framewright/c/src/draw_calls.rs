@@ -1,10 +1,9 @@
 //! Draws of the program's within a pass, and what is bound for them.
 
-use crate::arguments::{bytes, list, reference};
+use crate::arguments::{bytes, list, one_of, reference};
 use crate::bind_groups::FramewrightBindGroup;
 use crate::last_error::call;
 use crate::passes::{FramewrightPass, PassResources, resources};
-use crate::renderer::one_of;
 use crate::status::{FramewrightStatus, Problem};
 use framewright::vulkan::ash::vk;
 use framewright::{CullMode, FrontFace, IndexType, ProgramBuffer, RawSet, Recorder};

@@ -1,8 +1,7 @@
 //! Draw interfaces: what draws of the program bring along.
 
-use crate::arguments::{list, optional_text, text};
+use crate::arguments::{list, one_of, optional_text, text};
 use crate::passes::FramewrightDraw;
-use crate::renderer::one_of;
 use crate::status::Problem;
 use framewright::graph::shader::{PushConstants, VertexBuffer, VertexRate};
 use framewright::graph::vulkan::{PrimitiveTopology, Stages, VertexFormat};
@@ -11,7 +10,6 @@ use framewright::vulkan::ash::vk;
 use framewright::{Attribute, DrawInterface, DrawInterfaces, DrawKind, DrawList, SuppliedKind, SuppliedResource};
 use std::collections::BTreeSet;
 use std::ffi::c_char;
-use std::sync::Arc;
 
 /// A vertex buffer of a draw interface.
 #[repr(C)]

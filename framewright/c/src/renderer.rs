@@ -1,7 +1,7 @@
 //! Renderers: a pipeline, and what was chosen for it.
 
 use crate::arguments::{
-    FramewrightNames, Structure, free, from_0, handle, list, optional_text, output, reference, structure, text,
+    FramewrightNames, Structure, free, from_0, handle, list, one_of, optional_text, output, reference, structure, text,
 };
 use crate::callback::Callback;
 use crate::device::FramewrightDevice;
@@ -17,7 +17,7 @@ use framewright::{
 };
 use std::collections::BTreeSet;
 use std::ffi::{CString, c_char, c_void};
-use std::sync::{Arc, Mutex, TryLockError};
+use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 
 /// What became another one when a frame was prepared.
 #[repr(C)]
@@ -162,6 +162,23 @@ pub enum FramewrightRotation {
     Rotate270 = 3,
 }
 
+/// What a renderer holds, for one user at a time.
+///
+/// # Safety
+/// The pointer is NULL or leads to a renderer, which lives for `'a`.
+pub(crate) unsafe fn locked<'a>(renderer: *const FramewrightRenderer) -> Result<MutexGuard<'a, State>, Problem> {
+    // SAFETY: the caller's word.
+    let renderer: &'a FramewrightRenderer = unsafe { reference(renderer, "renderer")? };
+    renderer.0.try_lock().map_err(|error| match error {
+        TryLockError::WouldBlock => {
+            Problem::Misuse("the renderer is in use: by another thread, or by the call that calls back".to_owned())
+        }
+        TryLockError::Poisoned(_) => {
+            Problem::Panic("an earlier call did, and the renderer can only be freed".to_owned())
+        }
+    })
+}
+
 /// Has a renderer do something, as [`call`] does.
 ///
 /// # Safety
@@ -170,19 +187,8 @@ pub(crate) unsafe fn with(
     renderer: *mut FramewrightRenderer,
     body: impl FnOnce(&mut State) -> Result<(), Problem>,
 ) -> FramewrightStatus {
-    call(|| {
-        // SAFETY: the caller's word.
-        let renderer = unsafe { reference(renderer, "renderer")? };
-        match renderer.0.try_lock() {
-            Ok(mut state) => body(&mut state),
-            Err(TryLockError::WouldBlock) => Err(Problem::Misuse(
-                "the renderer is in use: by another thread, or by the call that calls back".to_owned(),
-            )),
-            Err(TryLockError::Poisoned(_)) => {
-                Err(Problem::Panic("an earlier call did, and the renderer can only be freed".to_owned()))
-            }
-        }
-    })
+    // SAFETY: the caller's word.
+    call(|| body(&mut *unsafe { locked(renderer)? }))
 }
 
 /// Reads the pipeline in the file `pipeline`; where there is none, the shipped one of that name. Until it is told otherwise, the frame
@@ -432,12 +438,6 @@ pub unsafe extern "C" fn framewright_renderer_features(
             Ok(())
         })
     }
-}
-
-/// The value of this number.
-pub(crate) fn one_of<'v, T>(all: &'v [T], number: u32, what: &str) -> Result<&'v T, Problem> {
-    let found = usize::try_from(number).ok().and_then(|number| all.get(number));
-    found.ok_or_else(|| Problem::Misuse(format!("there is no `{what}` of the number {number}")))
 }
 
 /// Whether a file that was read is another one by now: 1, else 0.

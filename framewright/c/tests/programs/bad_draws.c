@@ -6,7 +6,7 @@
 static const char PIPELINE[] =
     "Pipeline(version: 1,\n"
     "    images: [(name: \"screen\", format: R8G8B8A8_UNORM, size: Output)],\n"
-    "    passes: [(name: \"objects\", draw: Objects(Opaque), shader: \"object\", color: [\"screen\"])],\n"
+    "    passes: [(name: \"objects\", draw: Objects(Opaque), shader: \"object\", color: [(image: \"screen\", clear: (0.0, 0.0, 0.0, 0.0))])],\n"
     "    outputs: [\"screen\"])\n";
 static const char VERTICES[] =
     "#version 460\n"
@@ -115,7 +115,7 @@ static void parts(void) {
     /* What would move a cursor or turn a line is shown and does nothing. */
     ATTRIBUTE("`a\\n\\u{1b}[1m\\u{202e}b` can't be a name", {.name = "a\n\033[1m\xe2\x80\xae" "b", .format = VK_FORMAT_R32_SFLOAT});
     ATTRIBUTE("no vertex attribute has the `format` of the number 0", {.name = "place"});
-    ATTRIBUTE("the `format` of the number 110", {.name = "place", .format = VK_FORMAT_R64_SINT});
+    ATTRIBUTE("the `format` of the number 111", {.name = "place", .format = VK_FORMAT_R64_SINT});
     ATTRIBUTE("the `format` of the number -1", {.name = "place", .format = (VkFormat)-1});
     ATTRIBUTE("is in vertex buffer 4294967295", {.name = "place", .format = VK_FORMAT_R32_SFLOAT, .buffer = UINT32_MAX});
     ATTRIBUTE("doesn't fit vertices of 8 bytes", {.name = "place", .format = VK_FORMAT_R32_SFLOAT, .offset = UINT32_MAX});
@@ -204,7 +204,7 @@ typedef enum {
 static const char *const WORDS[FAULTS] = {
     "", "a draw without a bind group for set 1", "was made for another set than 1", "the draw interface has no set 3", "a draw without vertex buffer",
     "no vertex buffer 1", "vertex buffer 0: the buffer is VK_NULL_HANDLE", "the offset 2 is no multiple of 4", "0 bytes from byte 0",
-    "vertices 0 to 3 lie beyond the vertex buffer", "an indexed draw without index buffer", "beyond the index buffer, which holds 2",
+    "vertices 0 to 2 lie beyond the vertex buffer", "an indexed draw without index buffer", "beyond the index buffer, which holds 2",
     "the index buffer: the offset 1 is no multiple of 2", "a draw without all push constants of `object`", "20 bytes of push constants",
     "3 bytes of push constants", "a viewport of ", "set 1 is the draw source's"};
 
@@ -317,7 +317,9 @@ int main(void) {
 
     /* What a shader reads and nobody brings is told with the shader's line. */
     FramewrightRenderer *lacking;
-    options.draws = &other;
+    FramewrightDrawInterface without = RIGHT;
+    without.attribute_count = 0;
+    options.draws = &without;
     check(framewright_renderer_open_carried(own.device, "bad.ron", PIPELINE, &options, &lacking));
     FAILS(framewright_renderer_frame(lacking, NULL), MISTAKES, "`place`");
     framewright_renderer_free(lacking);
@@ -340,7 +342,9 @@ int main(void) {
     check(framewright_renderer_make_pipelines(clone));
     FAILS(framewright_renderer_frame(clone, NULL), MISTAKES, "no recorder was set");
     FAILS(framewright_renderer_clone(renderer, NULL), MISUSE, "`other` is NULL");
-    FAILS(framewright_renderer_clone(NULL, &clone), MISUSE, "`renderer` is NULL");
+    FramewrightRenderer *none = clone;
+    FAILS(framewright_renderer_clone(NULL, &none), MISUSE, "`renderer` is NULL");
+    HOLDS(none == NULL);
     const char *dumped = "scren";
     FAILS(framewright_renderer_set_dump(renderer, &dumped, 1), MISTAKES, "`scren`");
     FAILS(framewright_renderer_set_dump(renderer, NULL, 1), MISUSE, "`images` is NULL");

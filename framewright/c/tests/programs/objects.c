@@ -48,9 +48,13 @@ static const char MARK_VERT[] =
     "void main() { gl_Position = vec4(2.0 * vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) - 1.0, 0.0, 1.0); }\n";
 static const char MARK_FRAG[] =
     "#version 460\n"
+    "layout(set = 0, binding = 0) uniform Params { vec2 corner; bool marks; } params;\n"
     "layout(push_constant) uniform Mark { vec4 color; } mark;\n"
     "layout(location = 0) out vec4 color;\n"
-    "void main() { color = mark.color; }\n";
+    "void main() {\n"
+    "    if (!params.marks || ivec2(gl_FragCoord.xy) != ivec2(params.corner)) { discard; }\n"
+    "    color = mark.color;\n"
+    "}\n";
 static const char SEEN[] =
     "#version 460\n"
     "layout(set = 1, binding = 0) uniform Camera { vec4 seen; } camera;\n"
