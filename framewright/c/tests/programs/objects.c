@@ -51,10 +51,7 @@ static const char MARK_FRAG[] =
     "layout(set = 0, binding = 0) uniform Params { vec2 corner; bool marks; } params;\n"
     "layout(push_constant) uniform Mark { vec4 color; } mark;\n"
     "layout(location = 0) out vec4 color;\n"
-    "void main() {\n"
-    "    if (!params.marks || ivec2(gl_FragCoord.xy) != ivec2(params.corner)) { discard; }\n"
-    "    color = mark.color;\n"
-    "}\n";
+    "void main() { color = params.marks ? mark.color : vec4(params.corner, 0.0, 0.0); }\n";
 static const char SEEN[] =
     "#version 460\n"
     "layout(set = 1, binding = 0) uniform Camera { vec4 seen; } camera;\n"
