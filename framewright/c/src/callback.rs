@@ -50,16 +50,16 @@ impl PassResources for SecondaryRecorder<'_> {
 }
 
 /// The recorder of a pass, which one thread of the program uses at a time.
-struct Shared<'p, R>(Mutex<&'p mut R>);
+struct SharedRecorder<'p, R>(Mutex<&'p mut R>);
 
-impl<'p, R> Shared<'p, R> {
+impl<'p, R> SharedRecorder<'p, R> {
     fn recorder(&self) -> MutexGuard<'_, &'p mut R> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
 /// A pass inside a scope.
-impl PassResources for Shared<'_, Recorder<'_>> {
+impl PassResources for SharedRecorder<'_, Recorder<'_>> {
     fn image(&self, name: &str) -> Option<CustomImage> {
         self.recorder().image(name)
     }
@@ -82,7 +82,7 @@ impl PassResources for Shared<'_, Recorder<'_>> {
 }
 
 /// A compute pass, of which images and buffers are the shader's.
-impl PassResources for Shared<'_, DispatchRecorder<'_>> {
+impl PassResources for SharedRecorder<'_, DispatchRecorder<'_>> {
     fn image(&self, _: &str) -> Option<CustomImage> {
         None
     }
@@ -141,7 +141,7 @@ impl Callback {
             rotation: recorder.rotation() as u32,
             ..NONE
         };
-        let inside = Shared(Mutex::new(recorder));
+        let inside = SharedRecorder(Mutex::new(recorder));
         self.call([&name, &custom], &inside, of_scope).map(|()| 1)
     }
 
@@ -197,7 +197,7 @@ impl Callback {
             eye: eye(recorder.eye()),
             ..NONE
         };
-        self.call([&name, &shader], &Shared(Mutex::new(recorder)), pass)
+        self.call([&name, &shader], &SharedRecorder(Mutex::new(recorder)), pass)
     }
 
     /// Calls it for a pass, and puts in the names and what leads to the resources.
