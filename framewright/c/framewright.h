@@ -926,7 +926,8 @@ FramewrightStatus framewright_renderer_record_into(FramewrightRenderer *renderer
 // Takes back a frame that was recorded into a command buffer, which was not and will not be submitted.
 FramewrightStatus framewright_renderer_discard(FramewrightRenderer *renderer, uint64_t frame);
 
-// Has `record` record custom passes, and draws of objects and sky where no scene was set, and gives it `context`; NULL: nobody does.
+// Has `record` record custom passes, the kinds of draws in `FramewrightRendererOptions.draws`, and draws of objects and sky where no scene was set, and
+// gives it `context`; NULL: nobody does.
 FramewrightStatus framewright_renderer_set_recorder(FramewrightRenderer *renderer,
                                                     FramewrightRecord record,
                                                     void *context);
