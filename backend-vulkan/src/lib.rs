@@ -68,6 +68,7 @@ pub use helper::Helper;
 pub use memory::{LiveMemory, MemoryInUse};
 pub use present::{Overlay, PresentMode, Presentation, Surface, Swapchain, SwapchainOptions};
 pub use probe::Canary;
+pub use process::LARGEST_SPIRV;
 /// The handles of windows and displays, for programs that show pictures.
 pub use raw_window_handle;
 pub use record::{

@@ -53,6 +53,12 @@ typedef enum {
     FRAMEWRIGHT_DRAW_MASKED_CASTERS = 5,
     // The sky.
     FRAMEWRIGHT_DRAW_SKY = 6,
+    // A full-screen pass whose shader reads what the program's draws bring along: three vertices and no buffer of them.
+    FRAMEWRIGHT_DRAW_FULL_SCREEN = 7,
+    // A pass's own vertices, whose shader reads what the program's draws bring along: the program only binds, and the draw follows by itself.
+    FRAMEWRIGHT_DRAW_VERTICES = 8,
+    // A compute pass whose shader reads the same: the program only binds, `commands` is NULL, and the dispatch follows by itself.
+    FRAMEWRIGHT_DRAW_COMPUTE = 9,
 } FramewrightDraw;
 
 // An eye.
@@ -121,6 +127,20 @@ typedef enum {
     FRAMEWRIGHT_OWNER_FOREIGN = 2,
 } FramewrightOwner;
 
+// The kind of a resource that draws bring along.
+typedef enum {
+    // A uniform block.
+    FRAMEWRIGHT_RESOURCE_KIND_UNIFORM_BLOCK = 0,
+    // A storage block that shaders read (`readonly buffer`).
+    FRAMEWRIGHT_RESOURCE_KIND_STORAGE_BLOCK = 1,
+    // A two-dimensional image of floats with its sampler (`sampler2D`), or an array of such ones.
+    FRAMEWRIGHT_RESOURCE_KIND_SAMPLED_IMAGE = 2,
+} FramewrightResourceKind;
+
+// A set of a draw interface, filled. Any thread may use it, and several at once. It is freed whenever the program likes: frames on their way
+// keep what they need of it.
+typedef struct FramewrightBindGroup FramewrightBindGroup;
+
 // A device. Any thread may use it, and several at once. It closes when it and all that was made from it are freed.
 typedef struct FramewrightDevice FramewrightDevice;
 
@@ -165,6 +185,18 @@ typedef struct {
     // shader may reach beyond its buffer: for programs that draw files and shaders of their own alone. 0: it keeps them within.
     uint32_t unchecked_bounds;
 } FramewrightDeviceOptions;
+
+// Vulkan's handles of a device.
+typedef struct {
+    // The instance.
+    VkInstance instance;
+    // The physical device.
+    VkPhysicalDevice physical_device;
+    // The device.
+    VkDevice device;
+    // The queue family that frames are for. Of a device of the library's its queue number 0 is used.
+    uint32_t queue_family;
+} FramewrightVulkan;
 
 // Is told a finding of the validation layer, which lives until it returns: the layer's words, behind the step and pass where the layer
 // knows them.
@@ -252,7 +284,7 @@ typedef struct {
     const char *name;
     // What the pipeline calls its work: the name behind `custom`. Of other draws, the name of their shader.
     const char *custom;
-    // Where it is recorded. Its barriers are there already.
+    // Where it is recorded. Its barriers are there already. NULL for a compute pass.
     VkCommandBuffer commands;
     // Whether it stands inside a rendering scope with the pass's targets, which is left open; else it stands outside of one.
     uint32_t in_scope;
@@ -262,7 +294,7 @@ typedef struct {
     uint32_t height;
     // The number of the frame, as `framewright_renderer_frame` returns it.
     uint64_t frame;
-    // Leads `framewright_pass_image`, `framewright_pass_buffer` and `framewright_pass_draw` to the pass.
+    // Leads all functions of the name `framewright_pass_…` to the pass.
     const FramewrightResources *resources;
     // The queue family that the commands are for: that for graphics, or that for compute if the pipeline says `queue: Any`.
     uint32_t queue_family;
@@ -281,6 +313,8 @@ typedef struct {
     // For a pass of which `framewright_renderer_set_secondary` says that it has secondary command buffers, what they are begun with, beside
     // `RENDER_PASS_CONTINUE`; `commands` then takes `vkCmdExecuteCommands` and nothing else. NULL for other passes.
     const VkCommandBufferInheritanceRenderingInfo *inheritance;
+    // The FramewrightRotation of the picture inside a scope: pipelines of the program's own turn what they draw.
+    uint32_t rotation;
 } FramewrightPass;
 
 // An image that a pass accesses.
@@ -303,6 +337,90 @@ typedef struct {
     FramewrightEye eye;
 } FramewrightPassImage;
 
+// A vertex buffer of a draw interface.
+typedef struct {
+    // Bytes from element to element.
+    uint32_t stride;
+    // 0: it has an element for each vertex. Else how many instances in a row read one element: 1 for an element for each instance. More than 1
+    // needs the feature `vertexAttributeInstanceRateDivisor`.
+    uint32_t instances;
+} FramewrightVertexBuffer;
+
+// A vertex attribute of a draw interface. Shaders choose locations, and find attributes by name.
+typedef struct {
+    // Its name in shaders.
+    const char *name;
+    // Its format; of a matrix or an array that of one location.
+    VkFormat format;
+    // Where it lies in an element of the buffer, in bytes.
+    uint32_t offset;
+    // The number of its vertex buffer.
+    uint32_t buffer;
+    // How many locations it takes, one behind the other in the buffer: of a matrix as many as it has columns; 0 counts as 1.
+    uint32_t locations;
+    // Whether shaders that have no name for it read it at `location`. 0 is false.
+    uint32_t has_location;
+    // That location.
+    uint32_t location;
+} FramewrightAttribute;
+
+// A resource of a draw interface. All stages of the shaders of its kind of draws see it.
+typedef struct {
+    // Its name in shaders.
+    const char *name;
+    // Its descriptor set, 1 to 3.
+    uint32_t set;
+    // Its binding, 0 to 255.
+    uint32_t binding;
+    // A FramewrightResourceKind.
+    uint32_t kind;
+    // How many images an array has; 0 counts as 1.
+    uint32_t count;
+} FramewrightSuppliedResource;
+
+// What one kind of draws of the program's brings along: vertices, push constants, and resources in bind groups. 0 in a field is its default.
+typedef struct {
+    // The kind: a FramewrightDraw. Full-screen passes have no vertices of the program's; compute passes and draws of a pass's own vertices have no
+    // push constants of it either.
+    uint32_t draw;
+    // With `FRAMEWRIGHT_DRAW_CUSTOM`: what the pipeline calls the custom passes that are meant, alone; NULL: all that no other entry means.
+    const char *custom;
+    // Vertex buffers, by their numbers.
+    const FramewrightVertexBuffer *vertex_buffers;
+    // How many there are.
+    size_t vertex_buffer_count;
+    // Vertex attributes.
+    const FramewrightAttribute *attributes;
+    // How many there are.
+    size_t attribute_count;
+    // Whether `topology` is what vertices make; else the pass says it, or it is a triangle of each three. 0 is false.
+    uint32_t has_topology;
+    // What vertices make: points, lines or triangles, without adjacency and patches.
+    VkPrimitiveTopology topology;
+    // Whether an index of all ones ends a strip or a fan, and begins another. 0 is false.
+    uint32_t primitive_restart;
+    // Push constants that the program sets for each draw. `stageFlags` of 0 are vertex and fragment shaders.
+    const VkPushConstantRange *push_constants;
+    // How many ranges there are.
+    size_t push_constant_count;
+    // Resources.
+    const FramewrightSuppliedResource *supplied;
+    // How many there are.
+    size_t supplied_count;
+} FramewrightDrawInterface;
+
+// What is bound at a binding of a bind group: a buffer, or images.
+typedef struct {
+    // The number of the binding.
+    uint32_t binding;
+    // For a uniform or storage block, its buffer; else NULL. `range` is a number of bytes, and not `VK_WHOLE_SIZE`.
+    const VkDescriptorBufferInfo *buffer;
+    // For a sampled image, its view of the type 2D, its sampler and the layout that it is read in; for an array each of its elements; else NULL.
+    const VkDescriptorImageInfo *images;
+    // How many images there are.
+    size_t image_count;
+} FramewrightBinding;
+
 // The layout of a descriptor set that the program makes and binds itself.
 typedef struct {
     // Its number, 1 to 3. The draws of a scene have set 1 and set 2.
@@ -318,6 +436,16 @@ typedef struct {
     VkDescriptorSetLayout layout;
 } FramewrightSet;
 
+// A file that the program carries within itself.
+typedef struct {
+    // Its name.
+    const char *name;
+    // What it holds.
+    const void *bytes;
+    // How many bytes, at most 16 MiB.
+    size_t byte_count;
+} FramewrightFile;
+
 // What a renderer is made with, and keeps. 0 in a field is its default.
 typedef struct {
     // sizeof(FramewrightRendererOptions).
@@ -330,6 +458,15 @@ typedef struct {
     FramewrightNames settings;
     // Extensions that are applied to the pipeline: files, or paths of shipped ones.
     FramewrightNames extensions;
+    // What the program's draws bring along, for each kind of draws at most once; the kinds that aren't listed bring nothing. If there are
+    // none, all kinds bring what a scene does.
+    const FramewrightDrawInterface *draws;
+    // How many there are.
+    size_t draw_count;
+    // With `draws`: whether the kinds that aren't listed bring what a scene does, which then draws them. 0 is false.
+    uint32_t scene_draws;
+    // The names of all custom passes that the program records: others are mistakes of a pipeline. If there are none, any name is right.
+    FramewrightNames custom_passes;
     // Descriptor sets that the program makes itself, and binds by `framewright_renderer_bind_set`.
     const FramewrightSet *sets;
     // How many there are.
@@ -337,11 +474,29 @@ typedef struct {
     // Commands that compile shaders in HLSL, Slang and WGSL, each with its language: `hlsl=dxc`, `slang=slangc -O0`. Later ones are
     // stronger. docs/hlsl.md has more.
     FramewrightNames shader_compilers;
+    // Modules of SPIR-V, by the names of files that no folder has: a pipeline says `FullScreen("post.spv")`.
+    const FramewrightFile *spirv;
+    // How many there are.
+    size_t spirv_count;
+    // A folder of shaders that were compiled ahead; NULL: none. Others are compiled, where the library has a compiler.
+    const char *precompiled;
+    // Whether shaders that are compiled are added to that folder. 0 is false.
+    uint32_t precompiled_adds;
+    // In place of such a folder its files, by their names without folder.
+    const FramewrightFile *precompiled_files;
+    // How many there are.
+    size_t precompiled_file_count;
     // The program hands addresses of buffers out in its sets, and vouches for the shaders that follow them. 0 is false.
     uint32_t addresses;
     // Whether what custom passes do is held against what the pipeline says of them, to look for mistakes: 1. A broken promise fails the call
     // that waits for the frame, or for room for another one, and the frame is done all the same. docs/embedding.md has more.
     uint32_t check_uses;
+    // Whether Plans are for the queue for graphics alone, as `framewright_renderer_record_into` needs it of a device with several. 0 is false.
+    uint32_t one_queue;
+    // Whether the device notes each step that it begins: an error of a device that stopped names the step. It takes time. 0 is false.
+    uint32_t breadcrumbs;
+    // Whether each step is waited for before the next, to the same end. 0 is false.
+    uint32_t step_by_step;
 } FramewrightRendererOptions;
 
 // What conditions of a pipeline ask for, for a program that knows its scene. 0 is false.
@@ -474,6 +629,15 @@ FramewrightStatus framewright_device_open(const FramewrightDeviceOptions *option
 // The device's name, which lives as long as the handle; NULL for NULL.
 const char *framewright_device_name(const FramewrightDevice *device);
 
+// Tells Vulkan's handles of a device, for buffers, images and pipelines of the program's own. They live as long as the device, and the program
+// destroys none of them.
+FramewrightStatus framewright_device_vulkan(const FramewrightDevice *device,
+                                            FramewrightVulkan *vulkan);
+
+// Plants mistakes, and fails if the validation layer doesn't report them, or if settings in the environment keep it from reporting others.
+// What it plants is no finding.
+FramewrightStatus framewright_device_canary(const FramewrightDevice *device);
+
 // Tells each finding of the validation layer so far, once however often the layer said it: none without `FramewrightDeviceOptions::validation`.
 FramewrightStatus framewright_device_findings(const FramewrightDevice *device,
                                               FramewrightFinding tell,
@@ -545,17 +709,107 @@ FramewrightStatus framewright_pass_buffer(const FramewrightPass *pass,
                                           const char *name,
                                           VkBuffer *buffer);
 
+// Tells the numbers of a parameter that the pipeline gives the pass: the components of a vector, the columns of a matrix one behind the other, 0 or 1
+// for a truth value. `count` is how many `numbers` has room for, and is told how many there are; if there are more, it is `FRAMEWRIGHT_STATUS_MISUSE`.
+FramewrightStatus framewright_pass_param(const FramewrightPass *pass,
+                                         const char *name,
+                                         double *numbers,
+                                         size_t *count);
+
+// Fills the set number `set` of `interface` with `bindings`, each of its bindings once. `interface` is as one in
+// `FramewrightRendererOptions.draws`; kinds of draws that bring the same share bind groups.
+//
+// Buffers, views and samplers are the program's, of this device, and made for what they are bound as. They live until the last frame is done
+// that was drawn with the group. No Plan knows of them: the program makes their barriers.
+FramewrightStatus framewright_bind_group_open(const FramewrightDevice *device,
+                                              const FramewrightDrawInterface *brought,
+                                              uint32_t set,
+                                              const FramewrightBinding *bindings,
+                                              size_t binding_count,
+                                              FramewrightBindGroup **group);
+
+// Frees a bind group. What was bound of it stays bound in the frames on their way.
+void framewright_bind_group_free(FramewrightBindGroup *group);
+
+// Binds a group for the draws of a pass from now on, or for a compute pass. One of another set, or of another draw interface, is the error of the
+// frame.
+FramewrightStatus framewright_pass_bind_group(const FramewrightPass *pass,
+                                              uint32_t set,
+                                              const FramewrightBindGroup *group);
+
+// Binds a descriptor set of the program's for the draws of a pass from now on, or for a compute pass, in place of the one of
+// `framewright_renderer_bind_set`. All else is as there. One that the pass's shader doesn't read is left out.
+FramewrightStatus framewright_pass_bind_set(const FramewrightPass *pass,
+                                            uint32_t set,
+                                            VkDescriptorSet descriptors,
+                                            const uint32_t *offsets,
+                                            size_t offset_count);
+
+// Binds `byte_count` bytes of a buffer of the program's, from `offset` on, as the vertex buffer `number` of the draw interface. `offset` is a multiple
+// of 4. The buffer was made for vertices, holds that much, and lives until the last frame is done that reads it; the program makes its barriers.
+FramewrightStatus framewright_pass_bind_vertex_buffer(const FramewrightPass *pass,
+                                                      uint32_t number,
+                                                      VkBuffer buffer,
+                                                      uint64_t offset,
+                                                      uint64_t byte_count);
+
+// Binds `byte_count` bytes of a buffer of the program's, from `offset` on, as the indices: `VK_INDEX_TYPE_UINT16` or `VK_INDEX_TYPE_UINT32`, and
+// `offset` is a multiple of an index's bytes. All else is as for vertices.
+FramewrightStatus framewright_pass_bind_index_buffer(const FramewrightPass *pass,
+                                                     VkBuffer buffer,
+                                                     uint64_t offset,
+                                                     uint64_t byte_count,
+                                                     VkIndexType type_of_index);
+
+// Sets push constants from byte `offset` on, for the draws of a pass from now on, as the draw interface tells them. Both numbers are multiples of 4.
+// Where no stage of the pass reads any they are left out.
+FramewrightStatus framewright_pass_push_constants(const FramewrightPass *pass,
+                                                  uint32_t offset,
+                                                  const void *constants,
+                                                  size_t byte_count);
+
+// Says which faces are left out from now on, unless the pipeline says it of the pass: at first none.
+FramewrightStatus framewright_pass_set_cull_mode(const FramewrightPass *pass, VkCullModeFlags mode);
+
+// Says which side is the front from now on, as seen in the picture: at first `VK_FRONT_FACE_COUNTER_CLOCKWISE`.
+FramewrightStatus framewright_pass_set_front_face(const FramewrightPass *pass, VkFrontFace face);
+
+// Says to which rectangle of the upright picture clip space is stretched from now on, in texels: at first to all of it. Where instances draw into both
+// eyes' halves it is all of it.
+FramewrightStatus framewright_pass_set_viewport(const FramewrightPass *pass,
+                                                double x,
+                                                double y,
+                                                double width,
+                                                double height);
+
+// Says in which rectangle of the upright picture texels may change from now on: at first in all of it. What lies outside the picture is left out. Where
+// instances draw into both eyes' halves it is all of it.
+FramewrightStatus framewright_pass_set_scissor(const FramewrightPass *pass,
+                                               uint32_t x,
+                                               uint32_t y,
+                                               uint32_t width,
+                                               uint32_t height);
+
 // Draws consecutive vertices of a pass inside a rendering scope whose shader is the pipeline's, for both eyes where the pass is for both.
 // Shaders see `first_instance` as their first `gl_InstanceIndex`. It records into `commands` of the pass, which one thread does at a time.
 //
-// It draws with the pipeline and sets that are bound, and the pass begins with its own. Once the program has bound others, or has set push
-// constants, it isn't called for this pass any more. A shader that reads vertex buffers, bind groups or push constants of a draw interface
-// can't be drawn. That, and a set of the program's that isn't bound, is the error of the frame.
+// It draws with the pipeline of the pass, and with what the functions `framewright_pass_…` have bound. Once the program has bound anything itself in
+// `commands`, or has set push constants there, none of them is called for this pass any more. A draw that lacks what its shader reads (vertex buffers, bind
+// groups, push constants, a set of the program's), or that reads beyond a vertex buffer, is the error of the frame.
 FramewrightStatus framewright_pass_draw(const FramewrightPass *pass,
                                         uint32_t first_vertex,
                                         uint32_t vertex_count,
                                         uint32_t first_instance,
                                         uint32_t instance_count);
+
+// Draws indexed vertices; `base_vertex` is added to each index. Indices that aren't in the index buffer are the error of the frame. All else is as for
+// `framewright_pass_draw`.
+FramewrightStatus framewright_pass_draw_indexed(const FramewrightPass *pass,
+                                                uint32_t first_index,
+                                                uint32_t index_count,
+                                                int32_t base_vertex,
+                                                uint32_t first_instance,
+                                                uint32_t instance_count);
 
 // Reads the pipeline in the file `pipeline`; where there is none, the shipped one of that name. Until it is told otherwise, the frame
 // has 1280×720 texels, and the scene may hold everything. `options` may be NULL.
@@ -563,6 +817,14 @@ FramewrightStatus framewright_renderer_open(const FramewrightDevice *device,
                                             const char *pipeline,
                                             const FramewrightRendererOptions *options,
                                             FramewrightRenderer **renderer);
+
+// Does the same with a pipeline that the program carries within itself, the text `pipeline`, which messages call `name`. The files and shaders that
+// it names are shipped ones, or of the folders in `FramewrightRendererOptions.shaders`.
+FramewrightStatus framewright_renderer_open_carried(const FramewrightDevice *device,
+                                                    const char *name,
+                                                    const char *pipeline,
+                                                    const FramewrightRendererOptions *options,
+                                                    FramewrightRenderer **renderer);
 
 // Frees a renderer. Frames on their way are waited for.
 void framewright_renderer_free(FramewrightRenderer *renderer);
@@ -578,6 +840,9 @@ FramewrightStatus framewright_renderer_set_preset(FramewrightRenderer *renderer,
 
 // Sets width and height of the output.
 FramewrightStatus framewright_renderer_set_extent(FramewrightRenderer *renderer, uint32_t width, uint32_t height);
+
+// Has images of these names leave the frame beside its outputs, so that they can be read.
+FramewrightStatus framewright_renderer_set_dump(FramewrightRenderer *renderer, const char *const *images, size_t count);
 
 // Shows a scene, and tells its facts. NULL: none, and it may hold everything; passes that draw objects or the sky are an error then.
 FramewrightStatus framewright_renderer_set_scene(FramewrightRenderer *renderer,
@@ -679,7 +944,8 @@ FramewrightStatus framewright_renderer_record_into(FramewrightRenderer *renderer
 // Takes back a frame that was recorded into a command buffer, which was not and will not be submitted.
 FramewrightStatus framewright_renderer_discard(FramewrightRenderer *renderer, uint64_t frame);
 
-// Has `record` record custom passes, and draws of objects and sky where no scene was set, and gives it `context`; NULL: nobody does.
+// Has `record` record custom passes, the kinds of draws in `FramewrightRendererOptions.draws`, and draws of objects and sky where no scene was set, and
+// gives it `context`; NULL: nobody does.
 FramewrightStatus framewright_renderer_set_recorder(FramewrightRenderer *renderer,
                                                     FramewrightRecord record,
                                                     void *context);
@@ -752,6 +1018,21 @@ FramewrightStatus framewright_renderer_set_owner(FramewrightRenderer *renderer,
 
 // Tells Vulkan's image that stood for the image `name` in the last frame, for commands of the program's own.
 FramewrightStatus framewright_renderer_image(FramewrightRenderer *renderer, const char *name, VkImage *image);
+
+// Makes another renderer of the pipeline, with the choices, the scene and the names of `framewright_renderer_set_secondary` of this one. It reads the
+// files anew, has drawn nothing, and has no recorder. Choices can be tried with it on another thread, and `framewright_renderer_make_pipelines` called,
+// while this one draws.
+FramewrightStatus framewright_renderer_clone(FramewrightRenderer *renderer,
+                                             FramewrightRenderer **other);
+
+// Makes all Vulkan pipelines that the next frame needs, on several threads. The device keeps them while there is a Plan, so that another renderer that
+// comes to the same choices finds them made.
+FramewrightStatus framewright_renderer_make_pipelines(FramewrightRenderer *renderer);
+
+// Tells the text of a file with all that the program's draws bring along, its sets and its custom passes: `framewright check --interface` checks
+// pipelines with it. The text lives as long as the renderer.
+FramewrightStatus framewright_renderer_interface(FramewrightRenderer *renderer,
+                                                 const char **ron);
 
 // Reads the output `name`, an image, as the last frame left it. Frames on their way are waited for. The bytes live until the next call of
 // this function for the renderer, or until it is freed.

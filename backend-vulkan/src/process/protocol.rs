@@ -17,7 +17,7 @@ pub(crate) const ARGUMENT: &str = "--framewright-helper";
 pub(crate) const MARK: &str = "FRAMEWRIGHT_HELPER";
 
 /// Most bytes of SPIR-V of one stage: usual ones have some ten thousand. What it uses is read from it in the program's own process.
-pub(crate) const LARGEST_SPIRV: usize = 16 << 20;
+pub const LARGEST_SPIRV: usize = 16 << 20;
 
 /// Longer frames are no frames of ours.
 pub(crate) const LARGEST_FRAME: usize = 1 << 28;

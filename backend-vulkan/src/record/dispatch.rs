@@ -1,10 +1,12 @@
 //! How a draw source binds its sets for a compute pass.
 
 use super::bound_sets::BoundSets;
+use super::eye_target::eye_of;
 use super::frame_resources::HeldResources;
 use crate::prepare::{Frame, SuppliedSets};
 use crate::resources::{BindGroup, RawSet};
 use ash::vk;
+use framewright_graph::frame::Eye;
 use framewright_graph::plan;
 
 /// Binds what the draw source brings along to one compute pass. The Plan says how many workgroups are dispatched afterwards.
@@ -15,7 +17,7 @@ pub struct DispatchRecorder<'f> {
     commands: vk::CommandBuffer,
     sets: BoundSets<'f>,
     plan: &'f plan::Pass,
-    frame: u64,
+    frame: &'f Frame<'f>,
     misuse: Option<String>,
 }
 
@@ -27,7 +29,6 @@ impl<'f> DispatchRecorder<'f> {
         (plan, frame): (&'f plan::Pass, &'f Frame<'f>),
     ) -> DispatchRecorder<'f> {
         let sets = BoundSets::new(frame.gpu, vk::PipelineBindPoint::COMPUTE, supplied, held, frame.sets);
-        let frame = frame.told;
         DispatchRecorder { commands, sets, plan, frame, misuse: None }
     }
 
@@ -44,6 +45,12 @@ impl<'f> DispatchRecorder<'f> {
         self.plan.view
     }
 
+    /// The eye that the pass works for; `None`: there is one, or it works for what both share.
+    #[must_use]
+    pub fn eye(&self) -> Option<Eye> {
+        eye_of(self.frame.plan, self.plan)
+    }
+
     /// The name of the pass's shader.
     #[must_use]
     pub fn shader(&self) -> &str {
@@ -53,7 +60,7 @@ impl<'f> DispatchRecorder<'f> {
     /// The number of the frame, as [`Executor::submit`](crate::Executor::submit) returns it.
     #[must_use]
     pub fn frame(&self) -> u64 {
-        self.frame
+        self.frame.told
     }
 
     /// Binds a group to the set number `set`, from 1 on.

@@ -14,6 +14,7 @@ mod eye_target;
 mod fragments;
 mod frame_resources;
 mod guarded_source;
+mod index_type;
 mod observers;
 mod pass_watch;
 mod recorded_frame;
@@ -30,7 +31,8 @@ pub use custom_image::CustomImage;
 pub use dispatch::DispatchRecorder;
 pub use draw_source::DrawSource;
 pub use eye_target::EyeTarget;
-pub use recorder::{IndexType, Recorder};
+pub use index_type::IndexType;
+pub use recorder::Recorder;
 pub use secondary_recorder::SecondaryRecorder;
 pub use timing::{FrameReport, PassReport, StepReport};
 

@@ -6,26 +6,18 @@ use super::canvas::Canvas;
 use super::custom_image::{CustomImage, named_buffer};
 use super::eye_target::{EyeTarget, eye_of};
 use super::frame_resources::HeldResources;
+use super::index_type::IndexType;
 use crate::base::numbers;
 use crate::gpu::{ScopeFormats, VertexBinding};
 use crate::pipeline::PARTS_STAGES;
 use crate::prepare::{Frame, PassState, PreparedDraw};
-use crate::resources::{BindGroup, Buffer, RawSet};
+use crate::resources::{BindGroup, Buffer, ProgramBuffer, RawSet};
 use ash::vk;
 use framewright_graph::frame::{Draw, Eye, EyeForm, ParamValue, Stereo};
 use framewright_graph::plan;
 use framewright_graph::shader::VertexRate;
 use framewright_graph::vulkan::{CullMode, FrontFace, Rotation};
 use std::ops::Range;
-
-/// The type of an index.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum IndexType {
-    /// Two bytes.
-    U16,
-    /// Four bytes.
-    U32,
-}
 
 /// Records the draws of one pass.
 ///
@@ -215,6 +207,20 @@ impl<'f> Recorder<'f> {
                 format!("vertices from byte {offset} of a buffer on, which holds {held}; offsets are multiples of 4")
             });
         };
+        self.bind_vertices(number, buffer.0.raw, offset, bytes);
+    }
+
+    /// Binds a part of a buffer of the program's own as the vertex buffer `number` of the draw interface. Its offset is a multiple of 4. The
+    /// buffer was made for vertices.
+    pub fn bind_program_vertices(&mut self, number: u32, part: ProgramBuffer) {
+        match part.checked(4) {
+            Ok((buffer, offset, bytes)) => self.bind_vertices(number, buffer, offset, bytes),
+            Err(why) => self.misused(|| format!("vertex buffer {number}: {why}")),
+        }
+    }
+
+    /// Binds `bytes` bytes of a buffer for vertices from `offset` on.
+    fn bind_vertices(&mut self, number: u32, buffer: vk::Buffer, offset: u64, bytes: u64) {
         if number >= self.pass.brought_buffers.max(1) {
             return self.misused(|| format!("the draw interface has no vertex buffer {number}"));
         }
@@ -225,9 +231,7 @@ impl<'f> Recorder<'f> {
             return;
         }
         // SAFETY: the command buffer is being recorded, the buffer was made for vertices, and the device has such a binding.
-        unsafe {
-            self.canvas.gpu.raw.cmd_bind_vertex_buffers(self.canvas.commands, number, &[buffer.0.raw], &[offset])
-        };
+        unsafe { self.canvas.gpu.raw.cmd_bind_vertex_buffers(self.canvas.commands, number, &[buffer], &[offset]) };
     }
 
     /// Binds the indices.
@@ -235,13 +239,24 @@ impl<'f> Recorder<'f> {
         if !self.may_bind(buffer, vk::BufferUsageFlags::INDEX_BUFFER) {
             return self.misused(|| "the buffer was not made for indices, or not by this device".to_owned());
         }
-        let (ty, bytes) = match ty {
-            IndexType::U16 => (vk::IndexType::UINT16, 2),
-            IndexType::U32 => (vk::IndexType::UINT32, 4),
-        };
-        self.indices = Some(buffer.bytes() / bytes);
+        self.bind_indices(buffer.0.raw, 0, buffer.bytes(), ty);
+    }
+
+    /// Binds a part of a buffer of the program's own as the indices. Its offset is a multiple of an index's bytes. The buffer was made for
+    /// indices.
+    pub fn bind_program_indices(&mut self, part: ProgramBuffer, ty: IndexType) {
+        match part.checked(ty.bytes()) {
+            Ok((buffer, offset, bytes)) => self.bind_indices(buffer, offset, bytes, ty),
+            Err(why) => self.misused(|| format!("the index buffer: {why}")),
+        }
+    }
+
+    /// Binds `bytes` bytes of a buffer for indices from `offset` on.
+    fn bind_indices(&mut self, buffer: vk::Buffer, offset: u64, bytes: u64, ty: IndexType) {
+        self.indices = Some(bytes / ty.bytes());
+        let ty = ty.vulkan();
         // SAFETY: the command buffer is being recorded, and the buffer was made for indices.
-        unsafe { self.canvas.gpu.raw.cmd_bind_index_buffer(self.canvas.commands, buffer.0.raw, 0, ty) };
+        unsafe { self.canvas.gpu.raw.cmd_bind_index_buffer(self.canvas.commands, buffer, offset, ty) };
     }
 
     /// Sets push constants from byte `offset` on, for the draws of this pass from now on: as the draw interface tells them. Both are multiples

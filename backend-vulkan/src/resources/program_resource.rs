@@ -36,11 +36,29 @@ impl ProgramBuffer {
     /// Takes `bytes` bytes of a buffer, from `offset` on.
     ///
     /// # Safety
-    /// The buffer must be of the device, hold that much, have been made for what it is bound as (uniform or storage blocks), and live
-    /// as long as all frames that bind it. No Plan knows of it: the program makes its barriers.
+    /// The buffer must be of the device, hold that much, have been made for what it is bound as (uniform or storage blocks, vertices or
+    /// indices), and live as long as all frames that bind it. No Plan knows of it: the program makes its barriers.
     #[must_use]
     pub unsafe fn new(buffer: vk::Buffer, offset: u64, bytes: u64) -> ProgramBuffer {
         ProgramBuffer { buffer, offset, bytes }
+    }
+
+    /// Buffer, offset and bytes, to be bound as vertices or indices.
+    ///
+    /// # Errors
+    /// In words: there is no buffer, or the offset is no multiple of `aligned`.
+    pub(crate) fn checked(self, aligned: u64) -> Result<(vk::Buffer, u64, u64), String> {
+        let ProgramBuffer { buffer, offset, bytes } = self;
+        if buffer == vk::Buffer::null() {
+            return Err("the buffer is VK_NULL_HANDLE".to_owned());
+        }
+        if !offset.is_multiple_of(aligned) {
+            return Err(format!("the offset {offset} is no multiple of {aligned}"));
+        }
+        if bytes == 0 || offset.checked_add(bytes).is_none() {
+            return Err(format!("{bytes} bytes from byte {offset} on can't be a part of a buffer"));
+        }
+        Ok((buffer, offset, bytes))
     }
 
     /// Why it can't be bound as a block, in words.

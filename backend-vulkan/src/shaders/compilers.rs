@@ -1,4 +1,4 @@
-//! Where stages come from: from a folder of precompiled ones, or of a compiler: that of GLSL and HLSL in this process or in a helper
+//! Where stages come from: from precompiled ones, or of a compiler: that of GLSL and HLSL in this process or in a helper
 //! process, or a command.
 
 use super::by_command;
@@ -59,7 +59,7 @@ impl Compilers {
         let Some(precompiled) = self.precompiled.clone() else { return self.compile_now(job, source, files) };
         let command = job.language.and_then(|language| self.commands.of(language));
         let file = precompiled.file(job, command.map_or("", CompilerCommand::text), source, files);
-        if let Some(spirv) = PrecompiledShaders::read(&file)? {
+        if let Some(spirv) = precompiled.read(&file)? {
             let verdict = judge(&spirv);
             return Ok(CompilerAnswer { spirv, verdict });
         }
@@ -194,9 +194,7 @@ impl Compilers {
             Compiler::Helper(helper, _) => format!("the program {}", helper.path().display()),
         };
         let elsewhere = match &self.precompiled {
-            Some(precompiled) => {
-                format!("{} holds no SPIR-V of it as this pass needs it", precompiled.folder().display())
-            }
+            Some(precompiled) => precompiled.lacks(),
             None => "no folder of precompiled shaders was named".to_owned(),
         };
         format!(

@@ -1,7 +1,7 @@
 //! What C hands in and gets back, checked as far as it can be.
 
 use crate::status::Problem;
-use std::ffi::{CStr, c_char};
+use std::ffi::{CStr, c_char, c_void};
 use std::mem::MaybeUninit;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::ptr;
@@ -86,6 +86,27 @@ pub(crate) unsafe fn list<'a, T>(pointer: *const T, count: usize, what: &str) ->
     }
 }
 
+/// `count` bytes, at most `most`; NULL is right if there are none.
+///
+/// # Safety
+/// The pointer is NULL, or `count` bytes stand there for `'a`.
+pub(crate) unsafe fn bytes<'a>(
+    pointer: *const c_void,
+    count: usize,
+    most: usize,
+    what: &str,
+) -> Result<&'a [u8], Problem> {
+    match (pointer.is_null(), count) {
+        (_, 0) => Ok(&[]),
+        (true, _) => Err(null(what)),
+        (false, count) if count > most => {
+            Err(Problem::Misuse(format!("`{what}` has {count} bytes, and at most {most} are taken")))
+        }
+        // SAFETY: the caller's word.
+        (false, _) => Ok(unsafe { std::slice::from_raw_parts(pointer.cast(), count) }),
+    }
+}
+
 /// Makes sure that a value can stand where a pointer leads to.
 fn aligned<T>(pointer: *const T, what: &str) -> Result<(), Problem> {
     if pointer.is_aligned() {
@@ -93,6 +114,12 @@ fn aligned<T>(pointer: *const T, what: &str) -> Result<(), Problem> {
     }
     let of = align_of::<T>();
     Err(Problem::Misuse(format!("`{what}` is no pointer to such a value: its address is no multiple of {of}")))
+}
+
+/// The value of this number.
+pub(crate) fn one_of<'v, T>(all: &'v [T], number: u32, what: &str) -> Result<&'v T, Problem> {
+    let found = usize::try_from(number).ok().and_then(|number| all.get(number));
+    found.ok_or_else(|| Problem::Misuse(format!("there is no `{what}` of the number {number}")))
 }
 
 /// A number from 0 on.

@@ -5,11 +5,11 @@ use crate::passes::{
     FramewrightDraw, FramewrightEye, FramewrightEyeForm, FramewrightFormats, FramewrightPass, FramewrightResources,
     NO_EYES, PassResources, both, eye, targets,
 };
+use framewright::graph::frame::ParamValue;
 use framewright::vulkan::Error;
 use framewright::vulkan::ash::vk;
-use framewright::{CustomImage, CustomRecorder, Recorder, SecondaryRecorder};
+use framewright::{BindGroup, CustomImage, CustomRecorder, DispatchRecorder, RawSet, Recorder, SecondaryRecorder};
 use std::ffi::c_void;
-use std::ops::Range;
 use std::ptr;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -22,7 +22,11 @@ impl PassResources for CustomRecorder<'_> {
         CustomRecorder::buffer(self, name)
     }
 
-    fn draw(&self, _: Range<u32>, _: Range<u32>) -> Result<(), &'static str> {
+    fn param(&self, name: &str) -> Option<ParamValue> {
+        CustomRecorder::param(self, name)
+    }
+
+    fn draws(&self, _: &mut dyn FnMut(&mut Recorder<'_>)) -> Result<(), &'static str> {
         Err("the pass stands outside of rendering scopes")
     }
 }
@@ -36,21 +40,26 @@ impl PassResources for SecondaryRecorder<'_> {
         SecondaryRecorder::buffer(self, name)
     }
 
-    fn draw(&self, _: Range<u32>, _: Range<u32>) -> Result<(), &'static str> {
+    fn param(&self, name: &str) -> Option<ParamValue> {
+        SecondaryRecorder::param(self, name)
+    }
+
+    fn draws(&self, _: &mut dyn FnMut(&mut Recorder<'_>)) -> Result<(), &'static str> {
         Err("the draws of the pass come in secondary command buffers")
     }
 }
 
-/// A pass inside a scope.
-struct Inside<'p, 'f>(Mutex<&'p mut Recorder<'f>>);
+/// The recorder of a pass, which one thread of the program uses at a time.
+struct SharedRecorder<'p, R>(Mutex<&'p mut R>);
 
-impl<'p, 'f> Inside<'p, 'f> {
-    fn recorder(&self) -> MutexGuard<'_, &'p mut Recorder<'f>> {
+impl<'p, R> SharedRecorder<'p, R> {
+    fn recorder(&self) -> MutexGuard<'_, &'p mut R> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-impl PassResources for Inside<'_, '_> {
+/// A pass inside a scope.
+impl PassResources for SharedRecorder<'_, Recorder<'_>> {
     fn image(&self, name: &str) -> Option<CustomImage> {
         self.recorder().image(name)
     }
@@ -59,11 +68,44 @@ impl PassResources for Inside<'_, '_> {
         self.recorder().buffer(name)
     }
 
-    fn draw(&self, vertices: Range<u32>, instances: Range<u32>) -> Result<(), &'static str> {
+    fn param(&self, name: &str) -> Option<ParamValue> {
+        self.recorder().param(name)
+    }
+
+    fn draws(&self, record: &mut dyn FnMut(&mut Recorder<'_>)) -> Result<(), &'static str> {
         let mut recorder = self.recorder();
         // The program may have set viewport and scissor since.
         let _ = recorder.raw();
-        recorder.draw(vertices, instances);
+        record(&mut recorder);
+        Ok(())
+    }
+}
+
+/// A compute pass, of which images and buffers are the shader's.
+impl PassResources for SharedRecorder<'_, DispatchRecorder<'_>> {
+    fn image(&self, _: &str) -> Option<CustomImage> {
+        None
+    }
+
+    fn buffer(&self, _: &str) -> Option<vk::Buffer> {
+        None
+    }
+
+    fn param(&self, _: &str) -> Option<ParamValue> {
+        None
+    }
+
+    fn draws(&self, _: &mut dyn FnMut(&mut Recorder<'_>)) -> Result<(), &'static str> {
+        Err("the pass is a compute pass")
+    }
+
+    fn bind_group(&self, set: u32, group: &BindGroup) -> Result<(), &'static str> {
+        self.recorder().bind_group(set, group);
+        Ok(())
+    }
+
+    fn bind_set(&self, number: u32, set: RawSet, offsets: &[u32]) -> Result<(), &'static str> {
+        self.recorder().bind_set(number, set, offsets);
         Ok(())
     }
 }
@@ -96,9 +138,10 @@ impl Callback {
             eye_form,
             eye_targets: targets(recorder.eye_targets()),
             formats: &raw const formats,
+            rotation: recorder.rotation() as u32,
             ..NONE
         };
-        let inside = Inside(Mutex::new(recorder));
+        let inside = SharedRecorder(Mutex::new(recorder));
         self.call([&name, &custom], &inside, of_scope).map(|()| 1)
     }
 
@@ -122,6 +165,7 @@ impl Callback {
             eye_targets: targets(recorder.eye_targets()),
             formats: &raw const formats,
             inheritance: &raw const inheritance,
+            rotation: recorder.rotation() as u32,
             ..NONE
         };
         self.call([recorder.pass(), custom], &*recorder, of_scope).map(|()| 1)
@@ -141,6 +185,19 @@ impl Callback {
             ..NONE
         };
         self.call([recorder.pass(), custom], &*recorder, pass)
+    }
+
+    /// Has the program bind what a compute pass sees of it.
+    pub(crate) fn compute(&self, recorder: &mut DispatchRecorder<'_>) -> Result<(), Error> {
+        let (name, shader) = (recorder.pass().to_owned(), recorder.shader().to_owned());
+        let pass = FramewrightPass {
+            frame: recorder.frame(),
+            queue_family: vk::QUEUE_FAMILY_IGNORED,
+            draw: FramewrightDraw::Compute,
+            eye: eye(recorder.eye()),
+            ..NONE
+        };
+        self.call([&name, &shader], &SharedRecorder(Mutex::new(recorder)), pass)
     }
 
     /// Calls it for a pass, and puts in the names and what leads to the resources.
@@ -186,4 +243,5 @@ const NONE: FramewrightPass<'static> = FramewrightPass {
     eye_targets: NO_EYES,
     formats: ptr::null(),
     inheritance: ptr::null(),
+    rotation: 0,
 };

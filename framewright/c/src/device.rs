@@ -1,6 +1,6 @@
 //! Devices that the library opens.
 
-use crate::arguments::{Structure, free, handle, optional_text, reference, structure};
+use crate::arguments::{Structure, free, handle, optional_text, output, reference, structure};
 use crate::last_error::{call, text};
 use crate::status::{FramewrightStatus, Problem};
 use framewright::vulkan::ash::vk;
@@ -105,6 +105,49 @@ pub unsafe extern "C" fn framewright_device_open(
 pub unsafe extern "C" fn framewright_device_name(device: *const FramewrightDevice) -> *const c_char {
     // SAFETY: the caller's word.
     unsafe { device.as_ref() }.map_or(ptr::null(), |device| device.name.as_ptr())
+}
+
+/// Vulkan's handles of a device.
+#[repr(C)]
+#[derive(Clone, Copy)]
+pub struct FramewrightVulkan {
+    /// The instance.
+    pub instance: vk::Instance,
+    /// The physical device.
+    pub physical_device: vk::PhysicalDevice,
+    /// The device.
+    pub device: vk::Device,
+    /// The queue family that frames are for. Of a device of the library's its queue number 0 is used.
+    pub queue_family: u32,
+}
+
+/// Tells Vulkan's handles of a device, for buffers, images and pipelines of the program's own. They live as long as the device, and the program
+/// destroys none of them.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_device_vulkan(
+    device: *const FramewrightDevice,
+    vulkan: *mut FramewrightVulkan,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    call(|| unsafe {
+        let device = &reference(device, "device")?.device;
+        let (instance, physical_device) = device.raw_physical();
+        let found = FramewrightVulkan {
+            instance: instance.handle(),
+            physical_device,
+            device: device.raw().handle(),
+            queue_family: device.graphics_queue_family(),
+        };
+        output(vulkan, "vulkan", found)
+    })
+}
+
+/// Plants mistakes, and fails if the validation layer doesn't report them, or if settings in the environment keep it from reporting others.
+/// What it plants is no finding.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_device_canary(device: *const FramewrightDevice) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    call(|| Ok(unsafe { reference(device, "device")? }.device.canary().map(drop)?))
 }
 
 /// Tells each finding of the validation layer so far, once however often the layer said it: none without `FramewrightDeviceOptions::validation`.

@@ -2,14 +2,14 @@
 
 use crate::arguments::{Structure, list, optional_output, reference, structure, text};
 use crate::callback::Callback;
-use crate::passes::FramewrightDraw;
+use crate::draws::{ProgramDraws, draw_of};
 use crate::renderer::{FramewrightChange, FramewrightRenderer, State, with};
 use crate::status::{FramewrightStatus, Problem};
 use framewright::vulkan::ash::vk;
 use framewright::vulkan::{Error, Executor};
 use framewright::{
-    Change, CustomRecorder, DispatchRecorder, Draw, DrawKind, DrawList, DrawSource, Recorder, SceneDrawSource,
-    SecondaryRecorder, SemaphorePoint, Submission,
+    Change, CustomRecorder, DispatchRecorder, Draw, DrawKind, DrawSource, Recorder, SceneDrawSource, SecondaryRecorder,
+    SemaphorePoint, Submission,
 };
 use std::collections::BTreeSet;
 use std::ffi::c_char;
@@ -73,27 +73,47 @@ unsafe impl Structure for FramewrightSubmission {
     };
 }
 
-/// Draws the scene, and has the program record custom passes.
+/// Draws the scene, and has the program record custom passes and what is its own to draw.
 struct Source<'s> {
     scene: Option<&'s mut SceneDrawSource>,
     callback: Option<Callback>,
+    draws: &'s ProgramDraws,
     secondary: &'s BTreeSet<String>,
+}
+
+/// Who records a pass.
+enum RecordedBy<'s> {
+    Program(Callback),
+    Scene(&'s mut SceneDrawSource),
+}
+
+impl Source<'_> {
+    /// Who records draws of this kind in `pass`: the program what is its own, and all that a recorder can draw if there is no scene.
+    fn of(&mut self, kind: DrawKind, pass: &str, shader: &str) -> Result<RecordedBy<'_>, Error> {
+        let own = self.draws.is_own(kind);
+        match (&mut self.scene, self.callback) {
+            (_, Some(callback)) if own => Ok(RecordedBy::Program(callback)),
+            (_, None) if own => Err(no_recorder(pass, shader)),
+            (Some(scene), _) => Ok(RecordedBy::Scene(scene)),
+            (None, Some(callback)) if has_objects(kind) => Ok(RecordedBy::Program(callback)),
+            (None, _) => Err(no_scene(pass)),
+        }
+    }
 }
 
 impl DrawSource for Source<'_> {
     fn record(&mut self, draw: Draw, recorder: &mut Recorder<'_>) -> Result<u32, Error> {
-        match (&mut self.scene, &self.callback, kind(draw)) {
-            (_, Some(callback), Some(kind @ FramewrightDraw::Custom)) => callback.inside(kind, recorder),
-            (Some(scene), _, _) => scene.record(draw, recorder),
-            (None, Some(callback), Some(kind)) => callback.inside(kind, recorder),
-            (None, _, _) => Err(no_scene(recorder.pass())),
+        let kind = DrawKind::of(draw);
+        match self.of(kind, recorder.pass(), recorder.shader())? {
+            RecordedBy::Program(callback) => callback.inside(draw_of(kind), recorder),
+            RecordedBy::Scene(scene) => scene.record(draw, recorder),
         }
     }
 
     fn dispatch(&mut self, recorder: &mut DispatchRecorder<'_>) -> Result<(), Error> {
-        match &mut self.scene {
-            Some(scene) => scene.dispatch(recorder),
-            None => Err(no_scene(recorder.pass())),
+        match self.of(DrawKind::Compute, recorder.pass(), recorder.shader())? {
+            RecordedBy::Program(callback) => callback.compute(recorder),
+            RecordedBy::Scene(scene) => scene.dispatch(recorder),
         }
     }
 
@@ -116,18 +136,12 @@ impl DrawSource for Source<'_> {
     }
 }
 
-/// What the program records of a draw, if it may; of other draws a scene brings along what their shaders see.
-fn kind(draw: Draw) -> Option<FramewrightDraw> {
-    Some(match DrawKind::of(draw) {
-        DrawKind::Custom => FramewrightDraw::Custom,
-        DrawKind::Objects(DrawList::Opaque) => FramewrightDraw::Opaque,
-        DrawKind::Objects(DrawList::Masked) => FramewrightDraw::Masked,
-        DrawKind::Objects(DrawList::Transparent) => FramewrightDraw::Transparent,
-        DrawKind::Casters(DrawList::Masked) => FramewrightDraw::MaskedCasters,
-        DrawKind::Casters(DrawList::Opaque | DrawList::Transparent) => FramewrightDraw::OpaqueCasters,
-        DrawKind::Sky => FramewrightDraw::Sky,
-        DrawKind::FullScreen | DrawKind::Vertices | DrawKind::Compute => return None,
-    })
+/// Whether a recorder of the program's draws this where there is no scene. Of other kinds a scene brings along what their shaders see.
+fn has_objects(kind: DrawKind) -> bool {
+    match kind {
+        DrawKind::Objects(_) | DrawKind::Casters(_) | DrawKind::Sky | DrawKind::Custom => true,
+        DrawKind::FullScreen | DrawKind::Vertices | DrawKind::Compute => false,
+    }
 }
 
 fn no_recorder(pass: &str, custom: &str) -> Error {
@@ -193,8 +207,8 @@ impl State {
         draw: impl FnOnce(&mut Executor, &mut dyn DrawSource) -> Result<u64, Error>,
     ) -> Result<u64, Problem> {
         self.prepare()?;
-        let State { renderer, objects, callback, secondary, .. } = self;
-        let mut source = Source { scene: objects.as_mut(), callback: *callback, secondary };
+        let State { renderer, objects, callback, draws, secondary, .. } = self;
+        let mut source = Source { scene: objects.as_mut(), callback: *callback, draws, secondary };
         Ok(draw(renderer.executor_mut()?, &mut source)?)
     }
 }

@@ -1,7 +1,7 @@
 //! Images of the program's own.
 
-use crate::arguments::{list, optional_output, output, text};
-use crate::renderer::{FramewrightRenderer, one_of, with};
+use crate::arguments::{list, one_of, optional_output, output, text};
+use crate::renderer::{FramewrightRenderer, with};
 use crate::status::{FramewrightStatus, Problem};
 use framewright::vulkan::ash::vk;
 use framewright::vulkan::{OutsideOwner, ResourceState};

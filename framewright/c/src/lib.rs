@@ -10,12 +10,17 @@
 #![allow(clippy::missing_safety_doc, reason = "the rules for all functions stand above, and at the head of the header")]
 
 mod adopt;
+mod ahead;
 mod arguments;
+mod bind_groups;
 mod callback;
 mod device;
+mod draw_calls;
+mod draws;
 mod frames;
 mod images;
 mod last_error;
+mod options;
 mod passes;
 mod recorder;
 mod renderer;
@@ -30,11 +35,25 @@ pub use adopt::{
     framewright_device_open_physical, framewright_features_chain, framewright_features_extensions,
     framewright_features_free, framewright_features_open,
 };
+pub use ahead::{framewright_renderer_clone, framewright_renderer_interface, framewright_renderer_make_pipelines};
 pub use arguments::FramewrightNames;
+pub use bind_groups::{
+    FramewrightBindGroup, FramewrightBinding, framewright_bind_group_free, framewright_bind_group_open,
+};
 pub use device::{
-    FramewrightDeadImage, FramewrightDevice, FramewrightDeviceOptions, FramewrightFinding,
-    framewright_device_dead_images, framewright_device_findings, framewright_device_free, framewright_device_name,
-    framewright_device_open,
+    FramewrightDeadImage, FramewrightDevice, FramewrightDeviceOptions, FramewrightFinding, FramewrightVulkan,
+    framewright_device_canary, framewright_device_dead_images, framewright_device_findings, framewright_device_free,
+    framewright_device_name, framewright_device_open, framewright_device_vulkan,
+};
+pub use draw_calls::{
+    framewright_pass_bind_group, framewright_pass_bind_index_buffer, framewright_pass_bind_set,
+    framewright_pass_bind_vertex_buffer, framewright_pass_draw, framewright_pass_draw_indexed,
+    framewright_pass_push_constants, framewright_pass_set_cull_mode, framewright_pass_set_front_face,
+    framewright_pass_set_scissor, framewright_pass_set_viewport,
+};
+pub use draws::{
+    FramewrightAttribute, FramewrightDrawInterface, FramewrightResourceKind, FramewrightSuppliedResource,
+    FramewrightVertexBuffer,
 };
 pub use frames::{
     FramewrightChoice, FramewrightSemaphore, FramewrightSubmission, framewright_renderer_discard,
@@ -48,22 +67,24 @@ pub use images::{
     framewright_renderer_states,
 };
 pub use last_error::{FramewrightMistake, framewright_last_error, framewright_last_mistake};
+pub use options::{FramewrightFile, FramewrightRendererOptions};
 pub use passes::{
     FramewrightDraw, FramewrightEye, FramewrightEyeForm, FramewrightEyeTarget, FramewrightFormats, FramewrightPass,
-    FramewrightPassImage, FramewrightRecord, FramewrightResources, framewright_pass_buffer, framewright_pass_draw,
-    framewright_pass_image,
+    FramewrightPassImage, FramewrightRecord, FramewrightResources, framewright_pass_buffer, framewright_pass_image,
+    framewright_pass_param,
 };
 pub use recorder::{
     framewright_renderer_both_eyes, framewright_renderer_formats, framewright_renderer_inheritance,
     framewright_renderer_set_recorder, framewright_renderer_set_secondary,
 };
 pub use renderer::{
-    FramewrightChange, FramewrightFacts, FramewrightFeature, FramewrightRenderer, FramewrightRendererOptions,
-    FramewrightRotation, FramewrightStereo, framewright_renderer_bind_set, framewright_renderer_features,
+    FramewrightChange, FramewrightFacts, FramewrightFeature, FramewrightRenderer, FramewrightRotation,
+    FramewrightStereo, framewright_renderer_bind_set, framewright_renderer_features,
     framewright_renderer_files_changed, framewright_renderer_free, framewright_renderer_open,
-    framewright_renderer_reload, framewright_renderer_set, framewright_renderer_set_extent,
-    framewright_renderer_set_facts, framewright_renderer_set_output_format, framewright_renderer_set_preset,
-    framewright_renderer_set_rotation, framewright_renderer_set_scene, framewright_renderer_set_stereo,
+    framewright_renderer_open_carried, framewright_renderer_reload, framewright_renderer_set,
+    framewright_renderer_set_dump, framewright_renderer_set_extent, framewright_renderer_set_facts,
+    framewright_renderer_set_output_format, framewright_renderer_set_preset, framewright_renderer_set_rotation,
+    framewright_renderer_set_scene, framewright_renderer_set_stereo,
 };
 pub use scene::{FramewrightScene, framewright_scene_free, framewright_scene_load, framewright_scene_mistake};
 pub use sets::FramewrightSet;

@@ -3,11 +3,10 @@
 use crate::arguments::{output, reference, text};
 use crate::last_error::call;
 use crate::status::{FramewrightStatus, Problem};
-use framewright::graph::frame::{Eye, EyeForm, Stereo};
+use framewright::graph::frame::{Eye, EyeForm, ParamValue, Stereo};
 use framewright::vulkan::ash::vk;
-use framewright::{CustomImage, EyeTarget, ScopeFormats};
+use framewright::{BindGroup, CustomImage, EyeTarget, RawSet, Recorder, ScopeFormats};
 use std::ffi::{c_char, c_void};
-use std::ops::Range;
 use std::ptr;
 
 /// What a pass draws that the program records.
@@ -28,6 +27,12 @@ pub enum FramewrightDraw {
     MaskedCasters = 5,
     /// The sky.
     Sky = 6,
+    /// A full-screen pass whose shader reads what the program's draws bring along: three vertices and no buffer of them.
+    FullScreen = 7,
+    /// A pass's own vertices, whose shader reads what the program's draws bring along: the program only binds, and the draw follows by itself.
+    Vertices = 8,
+    /// A compute pass whose shader reads the same: the program only binds, `commands` is NULL, and the dispatch follows by itself.
+    Compute = 9,
 }
 
 /// How one image holds both eyes' parts, the left one's first.
@@ -113,7 +118,7 @@ pub struct FramewrightPass<'p> {
     pub name: *const c_char,
     /// What the pipeline calls its work: the name behind `custom`. Of other draws, the name of their shader.
     pub custom: *const c_char,
-    /// Where it is recorded. Its barriers are there already.
+    /// Where it is recorded. Its barriers are there already. NULL for a compute pass.
     pub commands: vk::CommandBuffer,
     /// Whether it stands inside a rendering scope with the pass's targets, which is left open; else it stands outside of one.
     pub in_scope: u32,
@@ -123,7 +128,7 @@ pub struct FramewrightPass<'p> {
     pub height: u32,
     /// The number of the frame, as `framewright_renderer_frame` returns it.
     pub frame: u64,
-    /// Leads `framewright_pass_image`, `framewright_pass_buffer` and `framewright_pass_draw` to the pass.
+    /// Leads all functions of the name `framewright_pass_…` to the pass.
     pub resources: *const FramewrightResources<'p>,
     /// The queue family that the commands are for: that for graphics, or that for compute if the pipeline says `queue: Any`.
     pub queue_family: u32,
@@ -142,6 +147,8 @@ pub struct FramewrightPass<'p> {
     /// For a pass of which `framewright_renderer_set_secondary` says that it has secondary command buffers, what they are begun with, beside
     /// `RENDER_PASS_CONTINUE`; `commands` then takes `vkCmdExecuteCommands` and nothing else. NULL for other passes.
     pub inheritance: *const vk::CommandBufferInheritanceRenderingInfo<'p>,
+    /// The FramewrightRotation of the picture inside a scope: pipelines of the program's own turn what they draw.
+    pub rotation: u32,
 }
 
 /// What a pass accesses.
@@ -151,8 +158,17 @@ pub struct FramewrightResources<'p>(pub(crate) &'p dyn PassResources);
 pub(crate) trait PassResources: Sync {
     fn image(&self, name: &str) -> Option<CustomImage>;
     fn buffer(&self, name: &str) -> Option<vk::Buffer>;
-    /// Draws vertices; if that can't be, says why.
-    fn draw(&self, vertices: Range<u32>, instances: Range<u32>) -> Result<(), &'static str>;
+    fn param(&self, name: &str) -> Option<ParamValue>;
+    /// Has the recorder of the pass record something; if it can't draw, says why.
+    fn draws(&self, record: &mut dyn FnMut(&mut Recorder<'_>)) -> Result<(), &'static str>;
+    /// Binds a group; if that can't be, says why.
+    fn bind_group(&self, set: u32, group: &BindGroup) -> Result<(), &'static str> {
+        self.draws(&mut |recorder| recorder.bind_group(set, group))
+    }
+    /// Binds a set of the program's; if that can't be, says why.
+    fn bind_set(&self, number: u32, set: RawSet, offsets: &[u32]) -> Result<(), &'static str> {
+        self.draws(&mut |recorder| recorder.bind_set(number, set, offsets))
+    }
 }
 
 /// Records a pass: commands that touch what the pipeline says that the pass touches, and what is the program's own. Returns 0 if it
@@ -218,7 +234,7 @@ pub(crate) fn both(both: Option<(Stereo, EyeForm)>) -> (u32, FramewrightEyeForm)
 
 /// # Safety
 /// The pointer is NULL or leads to a pass whose callback hasn't returned.
-unsafe fn resources<'p>(pass: *const FramewrightPass<'p>) -> Result<&'p dyn PassResources, Problem> {
+pub(crate) unsafe fn resources<'p>(pass: *const FramewrightPass<'p>) -> Result<&'p dyn PassResources, Problem> {
     // SAFETY: the caller's word.
     let resources = unsafe { reference(reference(pass, "pass")?.resources, "pass->resources")? };
     Ok(resources.0)
@@ -266,28 +282,40 @@ pub unsafe extern "C" fn framewright_pass_buffer(
     })
 }
 
-/// Draws consecutive vertices of a pass inside a rendering scope whose shader is the pipeline's, for both eyes where the pass is for both.
-/// Shaders see `first_instance` as their first `gl_InstanceIndex`. It records into `commands` of the pass, which one thread does at a time.
-///
-/// It draws with the pipeline and sets that are bound, and the pass begins with its own. Once the program has bound others, or has set push
-/// constants, it isn't called for this pass any more. A shader that reads vertex buffers, bind groups or push constants of a draw interface
-/// can't be drawn. That, and a set of the program's that isn't bound, is the error of the frame.
+/// Tells the numbers of a parameter that the pipeline gives the pass: the components of a vector, the columns of a matrix one behind the other, 0 or 1
+/// for a truth value. `count` is how many `numbers` has room for, and is told how many there are; if there are more, it is `FRAMEWRIGHT_STATUS_MISUSE`.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn framewright_pass_draw(
+pub unsafe extern "C" fn framewright_pass_param(
     pass: *const FramewrightPass<'_>,
-    first_vertex: u32,
-    vertex_count: u32,
-    first_instance: u32,
-    instance_count: u32,
+    name: *const c_char,
+    numbers: *mut f64,
+    count: *mut usize,
 ) -> FramewrightStatus {
-    let range = |first: u32, count: u32, what: &str| {
-        let end = first.checked_add(count).ok_or_else(|| Problem::Misuse(format!("too many {what}")))?;
-        Ok::<_, Problem>(first..end)
-    };
     // SAFETY: the caller's word.
     call(|| unsafe {
-        let vertices = range(first_vertex, vertex_count, "vertices")?;
-        let drawn = resources(pass)?.draw(vertices, range(first_instance, instance_count, "instances")?);
-        drawn.map_err(|why| Problem::Misuse(why.to_owned()))
+        let name = text(name, "name")?;
+        let found = resources(pass)?.param(name);
+        let found = found.ok_or_else(|| Problem::Misuse(format!("the pass has no parameter `{name}`")))?;
+        let mut all = Vec::new();
+        flatten(&found, &mut all);
+        let room = *reference(count, "count")?;
+        output(count, "count", all.len())?;
+        if all.len() > room {
+            let what = format!("`{name}` has {} numbers, and there is room for {room}", all.len());
+            return Err(Problem::Misuse(what));
+        }
+        (0..).zip(all).try_for_each(|(at, number)| output(numbers.wrapping_add(at), "numbers", number))
     })
+}
+
+/// The numbers of a value one behind the other.
+fn flatten(value: &ParamValue, all: &mut Vec<f64>) {
+    match value {
+        ParamValue::Bool(truth) => all.push(f64::from(u8::from(*truth))),
+        ParamValue::Integer(number) => all.push(*number as f64),
+        ParamValue::Number(number) => all.push(*number),
+        // The recorder tells those of the frame as numbers.
+        ParamValue::OfFrame(_) => all.push(0.0),
+        ParamValue::List(parts) => parts.iter().for_each(|part| flatten(part, all)),
+    }
 }

@@ -9,7 +9,8 @@ use framewright::ScopeFormats;
 use framewright::vulkan::ash::vk;
 use std::ffi::{c_char, c_void};
 
-/// Has `record` record custom passes, and draws of objects and sky where no scene was set, and gives it `context`; NULL: nobody does.
+/// Has `record` record custom passes, the kinds of draws in `FramewrightRendererOptions.draws`, and draws of objects and sky where no scene was set, and
+/// gives it `context`; NULL: nobody does.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn framewright_renderer_set_recorder(
     renderer: *mut FramewrightRenderer,

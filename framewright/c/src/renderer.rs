@@ -2,23 +2,23 @@
 
 use crate::adopt::FramewrightFeatures;
 use crate::arguments::{
-    FramewrightNames, Structure, free, from_0, handle, list, optional_text, output, reference, structure, text,
+    FramewrightNames, Structure, free, from_0, handle, list, one_of, optional_text, output, reference, structure, text,
 };
 use crate::callback::Callback;
 use crate::device::FramewrightDevice;
+use crate::draws::ProgramDraws;
 use crate::last_error::{self, call};
+use crate::options::FramewrightRendererOptions;
 use crate::scene::FramewrightScene;
-use crate::sets::{FramewrightSet, program_sets};
 use crate::status::{FramewrightStatus, Problem};
-use framewright::graph::base::Root;
 use framewright::graph::vulkan::Format;
 use framewright::vulkan::ash::vk;
 use framewright::{
     Facts, RawSet, Renderer, RendererOptions, Rotation, Scene, SceneDrawSource, ScopeFormats, Stereo, Texels,
 };
 use std::collections::BTreeSet;
-use std::ffi::{c_char, c_void};
-use std::sync::{Arc, Mutex, TryLockError};
+use std::ffi::{CString, c_char, c_void};
+use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 
 /// What became another one when a frame was prepared.
 #[repr(C)]
@@ -33,10 +33,7 @@ pub enum FramewrightChange {
 }
 
 /// A pipeline that is drawn frame after frame. One thread at a time uses it; it need not be the same one.
-pub struct FramewrightRenderer(Mutex<State>);
-
-/// Frames that may be on their way: each has memory of its own.
-const MOST_FRAMES: u32 = 16;
+pub struct FramewrightRenderer(pub(crate) Mutex<State>);
 
 /// What a renderer holds.
 pub(crate) struct State {
@@ -50,57 +47,35 @@ pub(crate) struct State {
     pub(crate) callback: Option<Callback>,
     /// The custom passes inside scopes whose draws come in secondary command buffers.
     pub(crate) secondary: BTreeSet<String>,
+    /// What the program draws itself.
+    pub(crate) draws: ProgramDraws,
     /// The most that changed since the program asked.
     pub(crate) unreported: FramewrightChange,
     /// What was read last.
     pub(crate) texels: Option<Texels>,
     /// The formats that were told, each once. The program has pointers to their lists.
     pub(crate) formats: Vec<ScopeFormats>,
+    /// The text of an interface file, once it was told.
+    pub(crate) interface: Option<CString>,
 }
 
-/// What a renderer is made with, and keeps. 0 in a field is its default.
-#[repr(C)]
-#[derive(Clone, Copy)]
-pub struct FramewrightRendererOptions {
-    /// sizeof(FramewrightRendererOptions).
-    pub struct_size: usize,
-    /// How many frames may be on their way before a new one waits for the oldest, at most 16; 0 counts as 1.
-    pub frames_in_flight: u32,
-    /// Folders of shaders beside that of the pipeline.
-    pub shaders: FramewrightNames,
-    /// Settings files, of which later ones are stronger.
-    pub settings: FramewrightNames,
-    /// Extensions that are applied to the pipeline: files, or paths of shipped ones.
-    pub extensions: FramewrightNames,
-    /// Descriptor sets that the program makes itself, and binds by `framewright_renderer_bind_set`.
-    pub sets: *const FramewrightSet,
-    /// How many there are.
-    pub set_count: usize,
-    /// Commands that compile shaders in HLSL, Slang and WGSL, each with its language: `hlsl=dxc`, `slang=slangc -O0`. Later ones are
-    /// stronger. docs/hlsl.md has more.
-    pub shader_compilers: FramewrightNames,
-    /// The program hands addresses of buffers out in its sets, and vouches for the shaders that follow them. 0 is false.
-    pub addresses: u32,
-    /// Whether what custom passes do is held against what the pipeline says of them, to look for mistakes: 1. A broken promise fails the call
-    /// that waits for the frame, or for room for another one, and the frame is done all the same. docs/embedding.md has more.
-    pub check_uses: u32,
-}
-
-// SAFETY: it begins with its size, and has integers and pointers alone.
-unsafe impl Structure for FramewrightRendererOptions {
-    const NAME: &'static str = "FramewrightRendererOptions";
-    const DEFAULT: Self = FramewrightRendererOptions {
-        struct_size: 0,
-        frames_in_flight: 0,
-        shaders: FramewrightNames::NONE,
-        settings: FramewrightNames::NONE,
-        extensions: FramewrightNames::NONE,
-        sets: std::ptr::null(),
-        set_count: 0,
-        shader_compilers: FramewrightNames::NONE,
-        addresses: 0,
-        check_uses: 0,
-    };
+impl State {
+    /// That of a renderer that has drawn nothing.
+    pub(crate) fn of(renderer: Renderer, draws: ProgramDraws) -> State {
+        State {
+            renderer,
+            scene: None,
+            planned_scene: None,
+            objects: None,
+            callback: None,
+            secondary: BTreeSet::new(),
+            draws,
+            unreported: FramewrightChange::Nothing,
+            texels: None,
+            formats: Vec::new(),
+            interface: None,
+        }
+    }
 }
 
 /// What conditions of a pipeline ask for, for a program that knows its scene. 0 is false.
@@ -188,6 +163,23 @@ pub enum FramewrightRotation {
     Rotate270 = 3,
 }
 
+/// What a renderer holds, for one user at a time.
+///
+/// # Safety
+/// The pointer is NULL or leads to a renderer, which lives for `'a`.
+pub(crate) unsafe fn locked<'a>(renderer: *const FramewrightRenderer) -> Result<MutexGuard<'a, State>, Problem> {
+    // SAFETY: the caller's word.
+    let renderer: &'a FramewrightRenderer = unsafe { reference(renderer, "renderer")? };
+    renderer.0.try_lock().map_err(|error| match error {
+        TryLockError::WouldBlock => {
+            Problem::Misuse("the renderer is in use: by another thread, or by the call that calls back".to_owned())
+        }
+        TryLockError::Poisoned(_) => {
+            Problem::Panic("an earlier call did, and the renderer can only be freed".to_owned())
+        }
+    })
+}
+
 /// Has a renderer do something, as [`call`] does.
 ///
 /// # Safety
@@ -196,19 +188,8 @@ pub(crate) unsafe fn with(
     renderer: *mut FramewrightRenderer,
     body: impl FnOnce(&mut State) -> Result<(), Problem>,
 ) -> FramewrightStatus {
-    call(|| {
-        // SAFETY: the caller's word.
-        let renderer = unsafe { reference(renderer, "renderer")? };
-        match renderer.0.try_lock() {
-            Ok(mut state) => body(&mut state),
-            Err(TryLockError::WouldBlock) => Err(Problem::Misuse(
-                "the renderer is in use: by another thread, or by the call that calls back".to_owned(),
-            )),
-            Err(TryLockError::Poisoned(_)) => {
-                Err(Problem::Panic("an earlier call did, and the renderer can only be freed".to_owned()))
-            }
-        }
-    })
+    // SAFETY: the caller's word.
+    call(|| body(&mut *unsafe { locked(renderer)? }))
 }
 
 /// Reads the pipeline in the file `pipeline`; where there is none, the shipped one of that name. Until it is told otherwise, the frame
@@ -220,48 +201,48 @@ pub unsafe extern "C" fn framewright_renderer_open(
     options: *const FramewrightRendererOptions,
     renderer: *mut *mut FramewrightRenderer,
 ) -> FramewrightStatus {
-    let open = || {
-        // SAFETY: the caller's word.
-        let (device, pipeline, given) =
-            unsafe { (reference(device, "device")?, text(pipeline, "pipeline")?, structure(options, "options")?) };
-        let mut options = RendererOptions::default();
-        options.executor.frames_in_flight = match given.frames_in_flight {
-            frames @ ..=MOST_FRAMES => frames.max(1),
-            frames => {
-                let what = format!("`frames_in_flight` is {frames}, and at most {MOST_FRAMES} may be on their way");
-                return Err(Problem::Misuse(what));
-            }
-        };
-        options.executor.check_uses = given.check_uses != 0;
-        options.helper.clone_from(&device.helper);
-        // SAFETY: the caller's word.
-        unsafe {
-            let folders = given.shaders.texts("shaders")?;
-            options.shaders = folders.into_iter().map(|folder| Root::new(folder.into())).collect();
-            options.settings = given.settings.texts("settings")?.into_iter().map(Into::into).collect();
-            (options.draws, options.set_layouts) = program_sets(given.sets, given.set_count, options.draws)?;
-            options.draws = if given.addresses == 0 { options.draws } else { options.draws.with_addresses() };
-            options.files.extensions = given.extensions.texts("extensions")?.into_iter().map(Into::into).collect();
-            for compiler in given.shader_compilers.texts("shader_compilers")? {
-                let named = options.shader_compilers.set_named(compiler);
-                named.map_err(|bad| Problem::Misuse(format!("`shader_compilers`: {bad}")))?;
-            }
-        }
-        let renderer = Renderer::open(&device.device, pipeline, options)?;
-        Ok(FramewrightRenderer(Mutex::new(State {
-            renderer,
-            scene: None,
-            planned_scene: None,
-            objects: None,
-            callback: None,
-            secondary: BTreeSet::new(),
-            unreported: FramewrightChange::Nothing,
-            texels: None,
-            formats: Vec::new(),
-        })))
-    };
     // SAFETY: the caller's word.
-    call(|| unsafe { handle(renderer, "renderer", open) })
+    call(|| unsafe {
+        handle(renderer, "renderer", || {
+            let device = reference(device, "device")?;
+            let pipeline = text(pipeline, "pipeline")?;
+            made(device, options, |options| Renderer::open(&device.device, pipeline, options))
+        })
+    })
+}
+
+/// Does the same with a pipeline that the program carries within itself, the text `pipeline`, which messages call `name`. The files and shaders that
+/// it names are shipped ones, or of the folders in `FramewrightRendererOptions.shaders`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_open_carried(
+    device: *const FramewrightDevice,
+    name: *const c_char,
+    pipeline: *const c_char,
+    options: *const FramewrightRendererOptions,
+    renderer: *mut *mut FramewrightRenderer,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    call(|| unsafe {
+        handle(renderer, "renderer", || {
+            let device = reference(device, "device")?;
+            let (name, pipeline) = (text(name, "name")?, text(pipeline, "pipeline")?);
+            made(device, options, |options| Renderer::carried(&device.device, name, pipeline, options))
+        })
+    })
+}
+
+/// A renderer that is made with options.
+///
+/// # Safety
+/// The pointer is NULL or leads to options whose fields are as they say.
+unsafe fn made(
+    device: &FramewrightDevice,
+    options: *const FramewrightRendererOptions,
+    make: impl FnOnce(RendererOptions) -> Result<Renderer, framewright::Error>,
+) -> Result<FramewrightRenderer, Problem> {
+    // SAFETY: the caller's word.
+    let (options, draws) = unsafe { structure(options, "options")?.read(device)? };
+    Ok(FramewrightRenderer(Mutex::new(State::of(make(options)?, draws))))
 }
 
 /// Frees a renderer. Frames on their way are waited for.
@@ -313,6 +294,22 @@ pub unsafe extern "C" fn framewright_renderer_set_extent(
     unsafe { with(renderer, |state| Ok(state.renderer.set_extent([width, height])?)) }
 }
 
+/// Has images of these names leave the frame beside its outputs, so that they can be read.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn framewright_renderer_set_dump(
+    renderer: *mut FramewrightRenderer,
+    images: *const *const c_char,
+    count: usize,
+) -> FramewrightStatus {
+    // SAFETY: the caller's word.
+    unsafe {
+        with(renderer, |state| {
+            let images = FramewrightNames { names: images, count }.texts("images")?;
+            Ok(state.renderer.set_dump(&images)?)
+        })
+    }
+}
+
 /// Shows a scene, and tells its facts. NULL: none, and it may hold everything; passes that draw objects or the sky are an error then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn framewright_renderer_set_scene(
@@ -324,6 +321,12 @@ pub unsafe extern "C" fn framewright_renderer_set_scene(
     // SAFETY: the caller's word.
     unsafe {
         with(renderer, |state| {
+            if scene.is_some() && !state.draws.scene {
+                return Err(Problem::Misuse(
+                    "`draws` of the options are the program's alone: `scene_draws` has a scene draw the others"
+                        .to_owned(),
+                ));
+            }
             state.renderer.set_facts(scene.as_ref().map(|scene| scene.facts()));
             state.scene = scene;
             Ok(())
@@ -451,12 +454,6 @@ pub unsafe extern "C" fn framewright_renderer_device_features(
             handle(features, "features", || Ok(FramewrightFeatures::new(state.renderer.device_features()?)))
         })
     }
-}
-
-/// The value of this number.
-pub(crate) fn one_of<'v, T>(all: &'v [T], number: u32, what: &str) -> Result<&'v T, Problem> {
-    let found = usize::try_from(number).ok().and_then(|number| all.get(number));
-    found.ok_or_else(|| Problem::Misuse(format!("there is no `{what}` of the number {number}")))
 }
 
 /// Whether a file that was read is another one by now: 1, else 0.

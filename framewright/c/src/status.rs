@@ -1,6 +1,7 @@
 //! What became of a call.
 
 use framewright::Error;
+use framewright::graph::base::escape;
 use framewright::vulkan::{self, Blame};
 use std::any::Any;
 
@@ -54,7 +55,8 @@ impl Problem {
 
     pub(crate) fn text(&self) -> String {
         match self {
-            Problem::Misuse(what) => what.clone(),
+            // Names in it are the caller's and the pipeline's.
+            Problem::Misuse(what) => escape(what),
             Problem::Library(error) => error.to_string(),
             Problem::Panic(what) => format!("the library panicked: {what}"),
         }

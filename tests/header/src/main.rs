@@ -4,7 +4,7 @@ use std::error::Error;
 use std::path::Path;
 
 /// The files in the order in which the header has their contents.
-const FILES: [&str; 14] = [
+const FILES: [&str; 19] = [
     "version",
     "status",
     "last_error",
@@ -13,11 +13,16 @@ const FILES: [&str; 14] = [
     "adopt",
     "scene",
     "passes",
+    "draws",
+    "bind_groups",
+    "draw_calls",
     "sets",
+    "options",
     "renderer",
     "frames",
     "recorder",
     "images",
+    "ahead",
     "texels",
 ];
 

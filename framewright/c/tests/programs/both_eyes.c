@@ -1,10 +1,7 @@
 /* A program in C records for both eyes at once: a pass that fills images, one within a rendering scope, and draws of objects of its own by a
  * shader of the pipeline's. In each way that the device knows, each eye sees what it sees by one eye after the other. */
 
-#include <framewright.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "testing.h"
 
 static const char PIPELINE[] =
     "Pipeline(version: 1,\n"
@@ -31,24 +28,11 @@ static const char COLOR[] =
 
 enum { WIDTH = 64, HEIGHT = 32 };
 
-static void check(FramewrightStatus status) {
-    if (status != FRAMEWRIGHT_STATUS_OK) {
-        fprintf(stderr, "%s\n", framewright_last_error());
-        exit(EXIT_FAILURE);
-    }
-}
-
 static void expect(int holds, const char *what) {
     if (!holds) {
         fprintf(stderr, "%s\n", what);
         exit(EXIT_FAILURE);
     }
-}
-
-static void write_file(const char *path, const char *text) {
-    FILE *file = fopen(path, "wb");
-    fputs(text, file);
-    fclose(file);
 }
 
 /* What a callback is given. */

@@ -1,9 +1,6 @@
 /* Custom passes that a program in C records: one that fills an image, and one within a rendering scope. Writes picture.ppm. */
 
-#include <framewright.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "testing.h"
 
 static const char PIPELINE[] =
     "Pipeline(version: 1,\n"
@@ -13,21 +10,6 @@ static const char PIPELINE[] =
     "        (name: \"show\", draw: FullScreen(\"copy\"), sample: {\"source\": \"mine\"}, color: [\"screen\"]),\n"
     "        (name: \"corner\", custom: \"mark\", color: [\"screen\"])],\n"
     "    outputs: [\"screen\"])\n";
-
-static void check(FramewrightStatus status) {
-    if (status != FRAMEWRIGHT_STATUS_OK) {
-        fprintf(stderr, "%s\n", framewright_last_error());
-        exit(EXIT_FAILURE);
-    }
-}
-
-/* Fails with the status and these words. */
-static void fails(FramewrightStatus status, FramewrightStatus wanted, const char *words) {
-    if (status != wanted || strstr(framewright_last_error(), words) == NULL) {
-        fprintf(stderr, "status %d, and not %d with `%s`: %s\n", status, wanted, words, framewright_last_error());
-        exit(EXIT_FAILURE);
-    }
-}
 
 /* What a callback is given. */
 typedef struct {
@@ -40,12 +22,12 @@ typedef struct {
 static uint32_t record(void *context, const FramewrightPass *pass) {
     Program *program = context;
     ++program->calls;
-    fails(framewright_renderer_wait(program->renderer, 0), FRAMEWRIGHT_STATUS_MISUSE, "the renderer is in use");
+    FAILS(framewright_renderer_wait(program->renderer, 0), MISUSE, "the renderer is in use");
     FramewrightPassImage image;
     if (strcmp(pass->custom, "fill") == 0 && strcmp(pass->name, "whole") == 0 && !pass->in_scope) {
         VkBuffer buffer;
-        fails(framewright_pass_image(pass, "screen", &image), FRAMEWRIGHT_STATUS_MISUSE, "accesses no image `screen`");
-        fails(framewright_pass_buffer(pass, "mine", &buffer), FRAMEWRIGHT_STATUS_MISUSE, "accesses no buffer `mine`");
+        FAILS(framewright_pass_image(pass, "screen", &image), MISUSE, "accesses no image `screen`");
+        FAILS(framewright_pass_buffer(pass, "mine", &buffer), MISUSE, "accesses no buffer `mine`");
         check(framewright_pass_image(pass, "mine", &image));
         program->family = pass->queue_family;
         if (image.layout != VK_IMAGE_LAYOUT_GENERAL) {
@@ -57,7 +39,7 @@ static uint32_t record(void *context, const FramewrightPass *pass) {
     }
     if (strcmp(pass->custom, "mark") == 0 && pass->in_scope && program->knows_marks &&
         pass->queue_family == program->family) {
-        fails(framewright_pass_image(pass, "mine", &image), FRAMEWRIGHT_STATUS_MISUSE, "accesses no image `mine`");
+        FAILS(framewright_pass_image(pass, "mine", &image), MISUSE, "accesses no image `mine`");
         check(framewright_pass_image(pass, "screen", &image));
         if (image.layout != VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL || image.eye_form != FRAMEWRIGHT_EYE_FORM_NONE) {
             return 0;
@@ -76,30 +58,23 @@ static void count(void *findings, const char *text) {
 }
 
 int main(void) {
-    FILE *file = fopen("custom.ron", "wb");
-    fputs(PIPELINE, file);
-    fclose(file);
+    write_file("custom.ron", PIPELINE);
     FramewrightDeviceOptions options = {.struct_size = sizeof options, .validation = 1};
     FramewrightDevice *device;
     check(framewright_device_open(&options, &device));
     Program program = {NULL, 0, 0, VK_QUEUE_FAMILY_IGNORED};
     check(framewright_renderer_open(device, "custom.ron", NULL, &program.renderer));
     check(framewright_renderer_set_extent(program.renderer, 320, 180));
-    fails(framewright_renderer_frame(program.renderer, NULL), FRAMEWRIGHT_STATUS_MISTAKES, "no recorder was set");
+    FAILS(framewright_renderer_frame(program.renderer, NULL), MISTAKES, "no recorder was set");
     check(framewright_renderer_set_recorder(program.renderer, record, &program));
-    fails(framewright_renderer_frame(program.renderer, NULL), FRAMEWRIGHT_STATUS_MISTAKES, "doesn't record `mark`");
+    FAILS(framewright_renderer_frame(program.renderer, NULL), MISTAKES, "doesn't record `mark`");
     program.knows_marks = 1;
     program.calls = 0;
     check(framewright_renderer_frame(program.renderer, NULL));
 
     FramewrightTexels texels;
     check(framewright_renderer_read(program.renderer, "screen", &texels));
-    file = fopen("picture.ppm", "wb");
-    fprintf(file, "P6\n%u %u\n255\n", texels.width, texels.height);
-    for (size_t at = 0; at + 4 <= texels.byte_count; at += 4) {
-        fwrite(texels.bytes + at, 1, 3, file);
-    }
-    fclose(file);
+    write_picture(&texels);
     size_t findings = 0;
     check(framewright_device_findings(device, count, &findings));
     framewright_renderer_free(program.renderer);

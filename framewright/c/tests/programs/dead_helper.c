@@ -2,26 +2,10 @@
 
 #define _POSIX_C_SOURCE 200809L
 
-#include <framewright.h>
+#include "testing.h"
 #include <signal.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
 #include <unistd.h>
-
-static void write_file(const char *path, const char *text) {
-    FILE *file = fopen(path, "wb");
-    fputs(text, file);
-    fclose(file);
-}
-
-static void check(FramewrightStatus status) {
-    if (status != FRAMEWRIGHT_STATUS_OK) {
-        fprintf(stderr, "status %d: %s\n", status, framewright_last_error());
-        exit(1);
-    }
-}
 
 static void write_shader(const char *value) {
     char text[256];

@@ -1,25 +1,6 @@
 /* Passes that don't run in every frame: what the program says of them. */
 
-#include <framewright.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-static void check(FramewrightStatus status) {
-    if (status != FRAMEWRIGHT_STATUS_OK) {
-        fprintf(stderr, "%s\n", framewright_last_error());
-        exit(EXIT_FAILURE);
-    }
-}
-
-static void holds(int line, int condition) {
-    if (!condition) {
-        fprintf(stderr, "line %d doesn't hold: %s\n", line, framewright_last_error());
-        exit(EXIT_FAILURE);
-    }
-}
-
-#define HOLDS(condition) holds(__LINE__, condition)
+#include "testing.h"
 
 static FramewrightRenderer *renderer;
 static uint32_t drawn;

@@ -1,9 +1,6 @@
 /* A custom pass that does what the pipeline doesn't say of it, and a renderer that holds it against that. */
 
-#include <framewright.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "testing.h"
 
 /* `look` reads `mine`, and so gets hold of it; `other` is to write `list` alone. */
 static const char PIPELINE[] =
@@ -17,13 +14,6 @@ static const char PIPELINE[] =
     "        (name: \"other\", custom: \"other\", reads: [\"first\"], writes: [\"list\"]),\n"
     "        (name: \"show\", draw: FullScreen(\"copy\"), sample: {\"source\": \"mine\"}, color: [\"screen\"])],\n"
     "    outputs: [\"screen\", \"list\"])\n";
-
-static void check(FramewrightStatus status) {
-    if (status != FRAMEWRIGHT_STATUS_OK) {
-        fprintf(stderr, "%s\n", framewright_last_error());
-        exit(EXIT_FAILURE);
-    }
-}
 
 typedef struct {
     FramewrightPassImage mine;
@@ -66,9 +56,7 @@ static int shows(FramewrightRenderer *renderer, int red, int blue) {
 }
 
 int main(void) {
-    FILE *file = fopen("lies.ron", "wb");
-    fputs(PIPELINE, file);
-    fclose(file);
+    write_file("lies.ron", PIPELINE);
     FramewrightDevice *device;
     check(framewright_device_open(NULL, &device));
     int right = 1;

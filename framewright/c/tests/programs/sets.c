@@ -1,9 +1,6 @@
 /* A descriptor set that a program in C makes and binds itself: a colour in a uniform buffer, at two dynamic offsets. Writes nothing. */
 
-#include <framewright.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "testing.h"
 
 static const char PIPELINE[] =
     "Pipeline(version: 1,\n"
@@ -26,38 +23,6 @@ static const char FOLLOWS[] =
     "layout(location = 0) out vec4 color;\n"
     "void main() { color = head.color; }\n";
 
-static void check(FramewrightStatus status) {
-    if (status != FRAMEWRIGHT_STATUS_OK) {
-        fprintf(stderr, "%s\n", framewright_last_error());
-        exit(EXIT_FAILURE);
-    }
-}
-
-static void vk(VkResult result) {
-    if (result < 0) {
-        fprintf(stderr, "Vulkan's result is %d\n", result);
-        exit(EXIT_FAILURE);
-    }
-}
-
-/* Fails with the status and these words. */
-static void fails(int line, FramewrightStatus status, FramewrightStatus wanted, const char *words) {
-    if (status != wanted || strstr(framewright_last_error(), words) == NULL) {
-        fprintf(
-            stderr, "line %d: status %d, and not %d with `%s`: %s\n", line, status, wanted, words, framewright_last_error());
-        exit(EXIT_FAILURE);
-    }
-}
-
-#define FAILS(status, wanted, words) fails(__LINE__, status, FRAMEWRIGHT_STATUS_##wanted, words)
-
-static void write_file(const char *path, const char *text) {
-    FILE *file = fopen(path, "wb");
-    if (file == NULL || fputs(text, file) < 0 || fclose(file) != 0) {
-        exit(EXIT_FAILURE);
-    }
-}
-
 /* The first texel of a frame, in three bytes. */
 static uint32_t drawn(FramewrightRenderer *renderer) {
     FramewrightTexels texels;
@@ -69,60 +34,23 @@ static uint32_t drawn(FramewrightRenderer *renderer) {
 int main(void) {
     write_file("sets.ron", PIPELINE);
     write_file("tint.frag", SHADER);
-    VkApplicationInfo application = {VK_STRUCTURE_TYPE_APPLICATION_INFO, NULL, "program", 0, NULL, 0, VK_API_VERSION_1_3};
-    VkInstanceCreateInfo instance_info = {VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO, .pApplicationInfo = &application};
-    VkInstance instance;
-    vk(vkCreateInstance(&instance_info, NULL, &instance));
-    uint32_t one = 1;
-    VkPhysicalDevice physical;
-    vk(vkEnumeratePhysicalDevices(instance, &one, &physical));
-    VkPhysicalDeviceVulkan13Features v1_3 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
-    VkPhysicalDeviceVulkan12Features v1_2 = {
-        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, .pNext = &v1_3};
-    VkPhysicalDeviceFeatures2 features = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &v1_2};
-    vkGetPhysicalDeviceFeatures2(physical, &features);
-    const float priority = 1;
-    VkDeviceQueueCreateInfo queue_info = {VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, NULL, 0, 0, 1, &priority};
-    VkDeviceCreateInfo device_info = {
-        .sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, .pNext = &features, .queueCreateInfoCount = 1,
-        .pQueueCreateInfos = &queue_info};
-    VkDevice raw;
-    vk(vkCreateDevice(physical, &device_info, NULL, &raw));
-    FramewrightQueue queue = {.family = 0};
-    vkGetDeviceQueue(raw, 0, 0, &queue.queue);
-    FramewrightAdoptedDevice program = {
-        .struct_size = sizeof program, .instance = instance, .physical_device = physical, .device = raw,
-        .features = &features, .queues = &queue, .queue_count = 1};
-    FramewrightDevice *device;
-    check(framewright_device_adopt(&program, &device));
+    OwnDevice own;
+    open_vulkan(&own);
+    open_device(&own, NULL);
+    VkDevice raw = own.raw;
 
     /* Red, 256 bytes behind it green, and again as far behind it the address of green. */
+    VkPhysicalDeviceVulkan12Features v1_2 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    VkPhysicalDeviceFeatures2 features = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &v1_2};
+    vkGetPhysicalDeviceFeatures2(own.physical, &features);
     int addresses = v1_2.bufferDeviceAddress;
-    VkBufferCreateInfo buffer_info = {
-        .sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = 768, .usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT};
+    VkBufferUsageFlags usage = VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT;
     if (addresses) {
-        buffer_info.usage |= VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
+        usage |= VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
     }
-    VkBuffer buffer;
-    vk(vkCreateBuffer(raw, &buffer_info, NULL, &buffer));
-    VkMemoryRequirements needs;
-    vkGetBufferMemoryRequirements(raw, buffer, &needs);
-    VkPhysicalDeviceMemoryProperties types;
-    vkGetPhysicalDeviceMemoryProperties(physical, &types);
-    const VkMemoryPropertyFlags mapped = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-    VkMemoryAllocateFlagsInfo memory_flags = {
-        .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO, .flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT};
-    VkMemoryAllocateInfo memory_info = {
-        VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, addresses ? &memory_flags : NULL, needs.size, 0};
-    while (!(needs.memoryTypeBits >> memory_info.memoryTypeIndex & 1)
-           || (types.memoryTypes[memory_info.memoryTypeIndex].propertyFlags & mapped) != mapped) {
-        ++memory_info.memoryTypeIndex;
-    }
-    VkDeviceMemory memory;
-    vk(vkAllocateMemory(raw, &memory_info, NULL, &memory));
-    vk(vkBindBufferMemory(raw, buffer, memory, 0));
-    void *bytes;
-    vk(vkMapMemory(raw, memory, 0, VK_WHOLE_SIZE, 0, &bytes));
+    OwnBuffer colors = own_buffer(&own, usage, 768);
+    VkBuffer buffer = colors.buffer;
+    void *bytes = colors.bytes;
     const float red[4] = {1, 0, 0, 1}, green[4] = {0, 1, 0, 1};
     memcpy(bytes, red, sizeof red);
     memcpy((char *)bytes + 256, green, sizeof green);
@@ -157,7 +85,7 @@ int main(void) {
     for (int with_layout = 0; with_layout < 2; ++with_layout) {
         told.layout = with_layout ? layout : VK_NULL_HANDLE;
         FramewrightRenderer *renderer;
-        check(framewright_renderer_open(device, "sets.ron", &options, &renderer));
+        check(framewright_renderer_open(own.device, "sets.ron", &options, &renderer));
         check(framewright_renderer_set_extent(renderer, 4, 4));
         const char *unbound = "a draw without set 3, which the program binds itself";
         FAILS(framewright_renderer_frame(renderer, NULL), MISUSE, unbound);
@@ -190,7 +118,7 @@ int main(void) {
     write_file("tint.frag", FOLLOWS);
     for (uint32_t said = 0; said < 2 && addresses; ++said) {
         options.addresses = said;
-        check(framewright_renderer_open(device, "sets.ron", &options, &none));
+        check(framewright_renderer_open(own.device, "sets.ron", &options, &none));
         check(framewright_renderer_set_extent(none, 4, 4));
         uint32_t offset = 512;
         check(framewright_renderer_bind_set(none, 3, set, &offset, 1));
@@ -206,35 +134,33 @@ int main(void) {
 
     /* What doesn't fit is told when the renderer is opened, or planned. */
     told = (FramewrightSet){.set = 1, .bindings = &binding, .binding_count = 1};
-    FAILS(framewright_renderer_open(device, "sets.ron", &options, &none), MISUSE, "set 1 is the draw source's");
+    FAILS(framewright_renderer_open(own.device, "sets.ron", &options, &none), MISUSE, "set 1 is the draw source's");
     told.set = 3;
     VkDescriptorSetLayoutBinding wrong = binding;
     told.bindings = &wrong;
     wrong.stageFlags = VK_SHADER_STAGE_ALL;
-    FAILS(framewright_renderer_open(device, "sets.ron", &options, &none), MISUSE, "is for other stages");
+    FAILS(framewright_renderer_open(own.device, "sets.ron", &options, &none), MISUSE, "is for other stages");
     wrong = binding;
     wrong.descriptorType = VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT;
-    FAILS(framewright_renderer_open(device, "sets.ron", &options, &none), MISUSE, "a type that no set of a program has");
+    FAILS(framewright_renderer_open(own.device, "sets.ron", &options, &none), MISUSE, "a type that no set of a program has");
     wrong = binding;
     VkSampler sampler = VK_NULL_HANDLE;
     wrong.pImmutableSamplers = &sampler;
-    FAILS(framewright_renderer_open(device, "sets.ron", &options, &none), MISUSE, "has immutable samplers");
+    FAILS(framewright_renderer_open(own.device, "sets.ron", &options, &none), MISUSE, "has immutable samplers");
     wrong = binding;
     VkDescriptorBindingFlags flags = 1u << 30;
     told.flags = &flags;
-    FAILS(framewright_renderer_open(device, "sets.ron", &options, &none), MISUSE, "flags that aren't known");
+    FAILS(framewright_renderer_open(own.device, "sets.ron", &options, &none), MISUSE, "flags that aren't known");
     told.flags = NULL;
     wrong.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    check(framewright_renderer_open(device, "sets.ron", &options, &none));
+    check(framewright_renderer_open(own.device, "sets.ron", &options, &none));
     FAILS(framewright_renderer_frame(none, NULL), MISTAKES, "[E0829]");
     framewright_renderer_free(none);
 
-    framewright_device_free(device);
     vkDestroyDescriptorPool(raw, pool, NULL);
     vkDestroyDescriptorSetLayout(raw, layout, NULL);
-    vkDestroyBuffer(raw, buffer, NULL);
-    vkFreeMemory(raw, memory, NULL);
-    vkDestroyDevice(raw, NULL);
-    vkDestroyInstance(instance, NULL);
+    free_buffer(&own, colors);
+    close_device(&own);
+    close_vulkan(&own);
     return EXIT_SUCCESS;
 }

@@ -1,10 +1,7 @@
 /* Threads of a program in C record secondary command buffers, which a custom pass executes within its rendering scope. The device is the
  * program's own. Writes picture.ppm. */
 
-#include <framewright.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
+#include "testing.h"
 #include <threads.h>
 
 enum { THREADS = 4 };
@@ -18,20 +15,6 @@ static const char PIPELINE[] =
     "        (name: \"columns\", custom: \"columns\", color: [\"screen\"]),\n"
     "        (name: \"last\", custom: \"last\", color: [\"screen\"])],\n"
     "    outputs: [\"screen\"])\n";
-
-static void check(FramewrightStatus status) {
-    if (status != FRAMEWRIGHT_STATUS_OK) {
-        fprintf(stderr, "%s\n", framewright_last_error());
-        exit(EXIT_FAILURE);
-    }
-}
-
-static void vk(VkResult result) {
-    if (result < 0) {
-        fprintf(stderr, "Vulkan's result is %d\n", result);
-        exit(EXIT_FAILURE);
-    }
-}
 
 /* A thread's own command pool, with a command buffer that it records. */
 typedef struct {
@@ -138,74 +121,40 @@ static uint32_t record(void *context, const FramewrightPass *pass) {
 }
 
 int main(void) {
-    FILE *file = fopen("threads.ron", "wb");
-    fputs(PIPELINE, file);
-    fclose(file);
-    VkApplicationInfo application = {VK_STRUCTURE_TYPE_APPLICATION_INFO, NULL, "program", 0, NULL, 0, VK_API_VERSION_1_3};
-    VkInstanceCreateInfo instance_info = {VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO, .pApplicationInfo = &application};
-    VkInstance instance;
-    vk(vkCreateInstance(&instance_info, NULL, &instance));
-    uint32_t one = 1;
-    VkPhysicalDevice physical;
-    vk(vkEnumeratePhysicalDevices(instance, &one, &physical));
-    VkPhysicalDeviceVulkan13Features v1_3 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
-    VkPhysicalDeviceVulkan12Features v1_2 = {
-        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, .pNext = &v1_3};
-    VkPhysicalDeviceFeatures2 features = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &v1_2};
-    vkGetPhysicalDeviceFeatures2(physical, &features);
-    const float priority = 1;
-    VkDeviceQueueCreateInfo queue_info = {VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, NULL, 0, 0, 1, &priority};
-    VkDeviceCreateInfo device_info = {
-        .sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, .pNext = &features, .queueCreateInfoCount = 1,
-        .pQueueCreateInfos = &queue_info};
-    VkDevice raw;
-    vk(vkCreateDevice(physical, &device_info, NULL, &raw));
-    FramewrightQueue queue = {.family = 0};
-    vkGetDeviceQueue(raw, 0, 0, &queue.queue);
-    FramewrightAdoptedDevice adopted = {
-        .struct_size = sizeof adopted, .instance = instance, .physical_device = physical, .device = raw,
-        .features = &features, .queues = &queue, .queue_count = 1};
-    FramewrightDevice *device;
-    check(framewright_device_adopt(&adopted, &device));
+    write_file("threads.ron", PIPELINE);
+    OwnDevice own;
+    open_vulkan(&own);
+    open_device(&own, NULL);
 
     Program program = {.executed = 0};
     for (int number = 0; number < THREADS; ++number) {
         Thread *thread = &program.threads[number];
-        thread->device = raw;
+        thread->device = own.raw;
         thread->number = number;
-        VkCommandPoolCreateInfo pool = {VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, NULL, 0, queue.family};
-        vk(vkCreateCommandPool(raw, &pool, NULL, &thread->pool));
+        VkCommandPoolCreateInfo pool = {VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, NULL, 0, own.queue.family};
+        vk(vkCreateCommandPool(own.raw, &pool, NULL, &thread->pool));
         VkCommandBufferAllocateInfo allocate = {VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, NULL, thread->pool,
                                                 VK_COMMAND_BUFFER_LEVEL_SECONDARY, 1};
-        vk(vkAllocateCommandBuffers(raw, &allocate, &thread->commands));
+        vk(vkAllocateCommandBuffers(own.raw, &allocate, &thread->commands));
     }
     FramewrightRenderer *renderer;
-    check(framewright_renderer_open(device, "threads.ron", NULL, &renderer));
+    check(framewright_renderer_open(own.device, "threads.ron", NULL, &renderer));
     check(framewright_renderer_set_extent(renderer, 320, 180));
     check(framewright_renderer_set_recorder(renderer, record, &program));
     check(framewright_renderer_set_secondary(renderer, "columns", 1));
     check(framewright_renderer_inheritance(renderer, "columns", &program.told));
-    if (framewright_renderer_inheritance(renderer, "fill", &program.told) != FRAMEWRIGHT_STATUS_MISUSE) {
-        fprintf(stderr, "`fill` stands in no scope\n");
-        return EXIT_FAILURE;
-    }
+    FAILS(framewright_renderer_inheritance(renderer, "fill", &program.told), MISUSE, "no rendering scope has a pass");
     check(framewright_renderer_frame(renderer, NULL));
     check(framewright_renderer_frame(renderer, NULL));
 
     FramewrightTexels texels;
     check(framewright_renderer_read(renderer, "screen", &texels));
-    file = fopen("picture.ppm", "wb");
-    fprintf(file, "P6\n%u %u\n255\n", texels.width, texels.height);
-    for (size_t at = 0; at + 4 <= texels.byte_count; at += 4) {
-        fwrite(texels.bytes + at, 1, 3, file);
-    }
-    fclose(file);
+    write_picture(&texels);
     framewright_renderer_free(renderer);
-    framewright_device_free(device);
     for (int number = 0; number < THREADS; ++number) {
-        vkDestroyCommandPool(raw, program.threads[number].pool, NULL);
+        vkDestroyCommandPool(own.raw, program.threads[number].pool, NULL);
     }
-    vkDestroyDevice(raw, NULL);
-    vkDestroyInstance(instance, NULL);
+    close_device(&own);
+    close_vulkan(&own);
     return program.executed == 2 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -224,6 +224,25 @@ fn a_program_in_c_binds_a_set_of_its_own() {
     assert_eq!(succeeded(&program.run(&[], &VALIDATION)), "");
 }
 
+/// Vertex buffers, indices, bind groups and push constants, in each kind of draws (DO-5). The layer is on.
+#[test]
+fn do_5_a_program_in_c_draws_objects_of_its_own() {
+    let Some(program) = program("framewright/c/tests/programs/objects.c") else { return };
+    assert_eq!(succeeded(&program.run(&[], &VALIDATION)), "");
+}
+
+#[test]
+fn wrong_draws_have_their_status_and_their_words() {
+    let Some(program) = program("framewright/c/tests/programs/bad_draws.c") else { return };
+    assert_eq!(succeeded(&program.run(&[], &VALIDATION)), "");
+}
+
+#[test]
+fn a_program_in_c_brings_shaders_along_compiled() {
+    let Some(program) = program("framewright/c/tests/programs/modules.c") else { return };
+    succeeded(&program.run(&[], &[]));
+}
+
 #[test]
 fn changes_reach_the_scene_and_are_told_to_the_program() {
     let Some(program) = program("framewright/c/tests/programs/changes.c") else { return };

@@ -36,7 +36,9 @@ pub(crate) fn has_headers() -> bool {
 
 /// Runs a compiler, and expects that it has nothing to say.
 pub(crate) fn compile(compiler: &str, arguments: &[&str]) {
-    let out = Command::new(compiler).args(arguments).arg("-I").arg(in_repository("framewright/c")).output();
+    let folders = ["framewright/c", "framewright/c/tests/programs"].map(in_repository);
+    let folders = folders.iter().flat_map(|folder| ["-I".as_ref(), folder.as_os_str()]);
+    let out = Command::new(compiler).args(arguments).args(folders).output();
     let out = out.expect("it runs");
     let said = String::from_utf8_lossy(&out.stderr);
     assert!(out.status.success() && said.is_empty(), "{compiler} {arguments:?}: {said}");
