@@ -2,6 +2,7 @@
 
 use crate::base::{Code, Diagnostic, Span};
 use crate::frame::{Access, Frame, Image, ImageIndex, Lifetime, Output, Pass, ResolveWay, Resource};
+use crate::shader::{FileLanguage, LanguageFacts};
 use crate::vulkan::{Rotation, Shape};
 use std::collections::BTreeSet;
 
@@ -137,10 +138,19 @@ impl TurnSearch<'_> {
             return Hindrance::Upright(what, pass.span);
         }
         let (name, degrees) = (self.name(image), degrees(self.rotation));
-        let help = format!(
-            "use `frag_coord()`, `ddx()`, `ddy()` and `rotate_clip()` of `include/rotation.glsl`; or draw into another image, \
-             and from that into `{name}`"
-        );
+        let other = format!("draw into another image, and from that into `{name}`");
+        let language = pass.work.draw().and_then(|(_, shader)| FileLanguage::of_shader(shader));
+        let help = match language.map(FileLanguage::facts) {
+            None => {
+                format!(
+                    "use `frag_coord()`, `ddx()`, `ddy()` and `rotate_clip()` of `include/rotation.glsl`; or {other}"
+                )
+            }
+            Some(LanguageFacts { includes: Some(ending), .. }) => {
+                format!("use `frag_coord()` and `rotate_clip()` of `include/rotation{ending}`; or {other}")
+            }
+            Some(_) => other,
+        };
         Hindrance::Wrong(Box::new(
             Diagnostic::new(
                 Code::SHADER_SEES_ROTATION,
