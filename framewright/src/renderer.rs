@@ -454,3 +454,6 @@ impl DrawnPlan {
         })
     }
 }
+
+#[cfg(test)]
+mod told_owners;

@@ -84,6 +84,40 @@ fn what_is_the_same_for_both_eyes_cant_follow_from_the_eye() {
     }
 }
 
+/// What must be a constant can't be the eye: the module is valid for one eye, and isn't once it knows the eye.
+#[test]
+fn a_module_that_the_eye_makes_invalid_is_refused() {
+    for way in WAYS {
+        let refused = stages("sum += mono.SampleLevel(smooth, it.uv, 0.0, int2(eye_index, 0));", way);
+        let Err(ShaderProblem::Unsupported { what }) = refused else { panic!("{way:?}: {refused:?}") };
+        assert!(what.contains("it can't be made to draw for both eyes at once: "), "{way:?}: {what}");
+    }
+}
+
+#[test]
+fn a_stage_that_chooses_its_layer_is_refused_where_the_eye_chooses_it() {
+    let text = "struct Corner { float4 position : SV_Position; uint layer : SV_RenderTargetArrayIndex; };
+Corner VSMain(uint vertex : SV_VertexID) {
+    Corner it;
+    it.position = float4(float2((vertex << 1) & 2, vertex & 2) * 2.0 - 1.0, 0.0, 1.0);
+    it.layer = 1;
+    return it;
+}
+float4 PSMain() : SV_Target0 { return float4(1.0, 1.0, 1.0, 1.0); }\n";
+    let files = Files::of(&[("test.hlsl", text)]);
+    for way in WAYS {
+        let name = "vertex test.hlsl:VSMain, fragment test.hlsl:PSMain";
+        let compiled = files.library().compiled(name, Draw::FullScreen, &both(way, &[]));
+        let what = match compiled {
+            Err(ShaderProblem::Unsupported { what }) => what,
+            Err(problem) => panic!("{way:?}: {problem:?}"),
+            Ok(_) => String::new(),
+        };
+        let refused = what.contains("it chooses its layer, and so does a draw for both eyes");
+        assert_eq!(refused, way == (EyeSource::InstanceParity, EyeForm::Layers), "{way:?}: {what}");
+    }
+}
+
 #[test]
 fn glsl_is_told_by_the_index_of_a_view_in_each_way_too() {
     let head = "#version 460\n#extension GL_EXT_multiview : require\n";

@@ -48,11 +48,6 @@ pub(super) fn pass(frame: &Frame, pass: &Pass, errors: &mut Vec<Diagnostic>) {
     for sampled in pass.sampled.iter().filter(|it| eyes(it.image).is_some() && it.eye.is_none() && !own) {
         wrong(sampled.image, sampled.span, "draws for one eye and doesn't say which it samples of");
     }
-    for sampled in pass.sampled.iter().filter(|it| it.eye.is_some() && eyes(it.image).is_none()) {
-        let name = &frame.images[sampled.image.0 as usize].name;
-        let what = format!("`{}` samples one eye's part of `{name}`, which holds one picture", pass.name);
-        errors.push(Diagnostic::new(Code::BOTH_EYES, sampled.span, what));
-    }
     let transfers = || {
         pass.transfers.iter().filter_map(|it| match it.resource {
             Resource::Image(image) => Some((image, it.span)),
@@ -69,6 +64,11 @@ pub(super) fn pass(frame: &Frame, pass: &Pass, errors: &mut Vec<Diagnostic>) {
         && eyes(from) != eyes(to)
     {
         wrong(if eyes(from).is_some() { from } else { to }, pass.span, "forwards from or to");
+    }
+    for sampled in pass.sampled.iter().filter(|it| it.eye.is_some() && eyes(it.image).is_none()) {
+        let name = &frame.images[sampled.image.0 as usize].name;
+        let what = format!("`{}` samples one eye's part of `{name}`, which holds one picture", pass.name);
+        errors.push(Diagnostic::new(Code::BOTH_EYES, sampled.span, what));
     }
     errors.extend(claim_problem(frame, pass).map(|what| {
         Diagnostic::new(Code::CLAIMS_BOTH_EYES, pass.span, format!("`{}` says `both_eyes`, and {what}", pass.name))
