@@ -59,12 +59,12 @@ fn do_11_a_told_owner_that_a_plan_can_not_have_is_an_error_and_the_plan_before_s
         Renderer::carried(device, "owners.ron", PIPELINE, RendererOptions::default()).expect("it is right");
     let queues = Queues { compute: true, transfer: true, sharing: Sharing::Concurrent, wait_bytes: 0 };
     renderer.profile = Arc::new(Profile { queues, ..device.profile() });
-    renderer.set_extent([64, 64]).expect("allowed");
+    renderer.set_extent([640, 360]).expect("allowed");
 
     // The owner is told first, and the Plan can't have it.
     renderer.set("again", true).expect("allowed");
     assert_eq!(users(&mut renderer).len(), 2);
-    let mut tell = |renderer: &mut Renderer, owner| renderer.executor_mut().expect("planned").set_owner("words", owner);
+    let tell = |renderer: &mut Renderer, owner| renderer.executor_mut().expect("planned").set_owner("words", owner);
     let said = tell(&mut renderer, Some(OutsideOwner::External)).expect_err("two queues use it");
     assert_eq!(said.to_string(), WANTED);
     renderer.frame(&mut Nothing).expect("drawn as before");

@@ -24,6 +24,7 @@ use framewright_vulkan::{
 use std::any::Any;
 use std::collections::HashSet;
 use std::fmt;
+use std::iter::Peekable;
 use std::ops::Range;
 use std::panic::AssertUnwindSafe;
 use std::path::Path;
@@ -291,7 +292,7 @@ impl Judge {
             if timestamps {
                 executor.report(frame).map_err(broken)?;
             }
-            let mut outputs = 0..plan.outputs.len();
+            let mut outputs = (0..plan.outputs.len()).peekable();
             for thing in &pipeline.outputs {
                 for found in self.read_each_eye(plan, &mut executor, &mut outputs).map_err(broken)? {
                     if let Some(difference) = compare(pipeline, state, *thing, number, &found) {
@@ -310,21 +311,24 @@ impl Judge {
         &self,
         plan: &Plan,
         executor: &mut Executor,
-        outputs: &mut Range<usize>,
+        outputs: &mut Peekable<Range<usize>>,
     ) -> Result<Vec<Vec<u8>>, Error> {
-        let mut next = || outputs.next().map(|output| read(plan, executor, output)).transpose();
-        let first = next()?.unwrap_or_default();
-        if self.stereo == Stereo::Off {
-            return Ok(vec![first]);
-        }
-        let layers = outputs.start.checked_sub(1).is_some_and(|at| match plan.outputs[at].resource {
+        let Some(at) = outputs.next() else { return Ok(vec![Vec::new()]) };
+        let first = read(plan, executor, at)?;
+        let holds_both = match plan.outputs[at].resource {
             Resource::Image(image) => plan.image(image).eyes.is_some(),
             Resource::Buffer(_) => false,
-        });
-        match layers {
-            true => Ok(first.chunks(first.len() / 2).map(<[u8]>::to_vec).collect()),
-            false => Ok(vec![first, next()?.unwrap_or_default()]),
+        };
+        if holds_both {
+            let eye = |number: usize| {
+                let parts = first.iter().filter_map(|plane| plane.chunks(plane.len().div_ceil(2).max(1)).nth(number));
+                parts.collect::<Vec<_>>().concat()
+            };
+            return Ok(vec![eye(0), eye(1)]);
         }
+        let other = outputs.next_if(|_| self.stereo != Stereo::Off);
+        let second = other.map(|at| read(plan, executor, at)).transpose()?;
+        Ok([first].into_iter().chain(second).map(|planes| planes.concat()).collect())
     }
 }
 
@@ -366,18 +370,18 @@ fn hand_in(pipeline: &Pipeline, plan: &Plan, executor: &mut Executor, frame: u32
     Ok(())
 }
 
-/// All bytes of an output.
-fn read(plan: &Plan, executor: &mut Executor, output: usize) -> Result<Vec<u8>, Error> {
+/// All bytes of an output, plane by plane of each mip level.
+fn read(plan: &Plan, executor: &mut Executor, output: usize) -> Result<Vec<Vec<u8>>, Error> {
     match plan.outputs[output].resource {
         Resource::Image(id) => {
             let image = plan.image(id);
             let mut all = Vec::new();
             for (mip, plane) in levels(image.mips, image.format) {
-                all.extend(executor.read_image(&image.name, plane.aspects(image.format), mip)?.bytes);
+                all.push(executor.read_image(&image.name, plane.aspects(image.format), mip)?.bytes);
             }
             Ok(all)
         }
-        Resource::Buffer(id) => executor.read_buffer(&plan.buffers[id.0 as usize].name),
+        Resource::Buffer(id) => Ok(vec![executor.read_buffer(&plan.buffers[id.0 as usize].name)?]),
     }
 }
 
