@@ -4,7 +4,7 @@ use super::Renderer;
 use crate::{Change, RendererOptions};
 use framewright_graph::device::{Profile, Queues};
 use framewright_graph::frame::Draw;
-use framewright_graph::plan::Queue;
+use framewright_graph::plan::{Queue, Resource};
 use framewright_graph::vulkan::Sharing;
 use framewright_tests::render;
 use framewright_vulkan::{DrawSource, Error, OutsideOwner, Recorder};
@@ -45,48 +45,65 @@ impl DrawSource for Nothing {
 fn users(renderer: &mut Renderer) -> BTreeSet<Queue> {
     let plan = renderer.prepare().expect("it is right").plan;
     let words = plan.buffers.iter().find(|buffer| *buffer.name == *"words").expect("it is used").id;
-    let uses = plan.steps.iter().filter(|step| {
-        step.touched().any(|it| it == framewright_graph::plan::Resource::Buffer(words))
-    });
+    let uses = plan.steps.iter().filter(|step| step.touched().any(|it| it == Resource::Buffer(words)));
     uses.map(|step| step.queue).collect()
 }
 
+/// Who has `words` between frames, as the Plan that is next says.
+fn owner(renderer: &mut Renderer) -> Option<OutsideOwner> {
+    let plan = renderer.prepare().expect("it is right").plan;
+    plan.buffers.iter().find(|buffer| *buffer.name == *"words").expect("it is used").role.owner()
+}
+
+fn tell(renderer: &mut Renderer, name: &str, owner: OutsideOwner) -> Result<(), crate::Error> {
+    Ok(renderer.executor_mut()?.set_owner(name, Some(owner))?)
+}
+
 #[test]
-fn do_11_a_told_owner_that_a_plan_can_not_have_is_an_error_and_the_plan_before_stays() {
-    const WANTED: &str = "several queues use `words`: its pipeline must say that it has an outside owner";
+fn do_11_an_owner_that_can_not_be_had_is_an_error_of_the_renderer_and_changes_nothing() {
+    let Some(device) = render::device() else { return };
+    let mut renderer =
+        Renderer::carried(device, "owners.ron", PIPELINE, RendererOptions::default()).expect("it is right");
+    renderer.set_extent([64, 64]).expect("allowed");
+    renderer.frame(&mut Nothing).expect("drawn");
+    let plan = renderer.plan().cloned();
+    // What doesn't exist, and what nobody else can have.
+    for name in ["nobody", "list"] {
+        let said = tell(&mut renderer, name, OutsideOwner::External).expect_err("it isn't external");
+        assert_eq!(said.to_string(), format!("the Plan has no external image or buffer `{name}`"));
+    }
+    match tell(&mut renderer, "words", OutsideOwner::Foreign) {
+        Ok(()) => {
+            assert_eq!(owner(&mut renderer), Some(OutsideOwner::Foreign));
+            renderer.executor_mut().expect("planned").set_owner("words", None).expect("it is external");
+        }
+        Err(error) => {
+            let lacks = "lacks VK_EXT_queue_family_foreign";
+            assert!(error.to_string().contains("`words`") && error.to_string().contains(lacks), "{error}");
+        }
+    }
+    assert_eq!(renderer.plan().cloned(), plan);
+    assert_eq!(renderer.prepare().expect("nothing is new").change, Change::Nothing);
+    renderer.frame(&mut Nothing).expect("drawn as before");
+}
+
+/// The compiler keeps what is imported on one queue, so each Plan can have the owner that was told.
+#[test]
+fn do_11_a_told_owner_stays_where_another_queue_has_what_it_owns() {
     let Some(device) = render::device() else { return };
     let mut renderer =
         Renderer::carried(device, "owners.ron", PIPELINE, RendererOptions::default()).expect("it is right");
     let queues = Queues { compute: true, transfer: true, sharing: Sharing::Concurrent, wait_bytes: 0 };
     renderer.profile = Arc::new(Profile { queues, ..device.profile() });
     renderer.set_extent([640, 360]).expect("allowed");
-
-    // The owner is told first, and the Plan can't have it.
-    renderer.set("again", true).expect("allowed");
-    assert_eq!(users(&mut renderer).len(), 2);
-    let tell = |renderer: &mut Renderer, owner| renderer.executor_mut().expect("planned").set_owner("words", owner);
-    let said = tell(&mut renderer, Some(OutsideOwner::External)).expect_err("two queues use it");
-    assert_eq!(said.to_string(), WANTED);
-    renderer.frame(&mut Nothing).expect("drawn as before");
-
-    // A Plan has it, and the next one can't.
-    renderer.set("again", false).expect("allowed");
-    assert_eq!(users(&mut renderer).len(), 1);
-    tell(&mut renderer, Some(OutsideOwner::External)).expect("one queue uses it");
-    let plan = renderer.plan().cloned();
-    for _ in 0..2 {
-        renderer.set("again", true).expect("allowed");
-        let said = renderer.prepare().map(drop).expect_err("two queues use it");
-        assert_eq!(said.to_string(), WANTED);
-        // The choice is taken back, and what was drawn before is drawn.
-        assert_eq!(renderer.plan().cloned(), plan);
-        assert_eq!(renderer.prepare().expect("nothing is new").change, Change::Nothing);
-        renderer.frame(&mut Nothing).expect("drawn as before");
+    let alone = users(&mut renderer);
+    tell(&mut renderer, "words", OutsideOwner::External).expect("it is external");
+    let mut queues = BTreeSet::from([alone]);
+    for again in [true, false] {
+        renderer.set("again", again).expect("allowed");
+        queues.insert(users(&mut renderer));
+        assert_eq!(owner(&mut renderer), Some(OutsideOwner::External));
+        renderer.frame(&mut Nothing).expect("drawn");
     }
-
-    // Without the owner it can.
-    tell(&mut renderer, None).expect("it is external");
-    renderer.set("again", true).expect("allowed");
-    assert_eq!(users(&mut renderer).len(), 2);
-    renderer.frame(&mut Nothing).expect("drawn");
+    assert!(queues.len() == 2 && queues.iter().all(|of| of.len() == 1), "{queues:?}");
 }
