@@ -220,13 +220,13 @@ fn taken_now_and_then([first, second]: [&str; 2], owner: &str) -> Plan {
     let text = format!(
         r#"Pipeline(version: 1, images: [
             (name: "camera", format: R8G8B8A8_UNORM, size: Output, lifetime: Imported(before: Sampled, after: Sampled{owner})),
-            (name: "half", format: R8G8B8A8_UNORM, size: Scaled(0.5)), (name: "other half", format: R8G8B8A8_UNORM, size: Scaled(0.5)),
+            (name: "half", format: R8G8B8A8_UNORM, size: Scaled(0.5)), (name: "other_half", format: R8G8B8A8_UNORM, size: Scaled(0.5)),
             (name: "shown", format: R8G8B8A8_UNORM, size: Output), (name: "other", format: R8G8B8A8_UNORM, size: Output)],
          passes: [
             (name: "first", run: {first}, draw: FullScreen("downsample"), sample: {{"source": "camera"}}, color: ["half"]),
-            (name: "second", run: {second}, draw: FullScreen("downsample"), sample: {{"source": "camera"}}, color: ["other half"]),
+            (name: "second", run: {second}, draw: FullScreen("downsample"), sample: {{"source": "camera"}}, color: ["other_half"]),
             (name: "show", draw: FullScreen("downsample"), sample: {{"source": "half"}}, color: ["shown"]),
-            (name: "show other", draw: FullScreen("downsample"), sample: {{"source": "other half"}}, color: ["other"])],
+            (name: "show_other", draw: FullScreen("downsample"), sample: {{"source": "other_half"}}, color: ["other"])],
          outputs: ["shown", "other"])"#
     );
     compiled(&right(&text, &INPUTS))

@@ -3,7 +3,7 @@
 
 use super::engine::{EXTENT, Engine};
 use super::{expected, pictures, ways};
-use crate::frames::{on_each_driver, on_each_driver_with};
+use crate::frames::on_each_driver_with;
 use ash::vk;
 use framewright_graph::compile::{Options, Order};
 use framewright_graph::frame::{EyeForm, Stereo};
@@ -134,14 +134,14 @@ fn left(device: &Device, pipeline: &str, ways: Ways, (lie, check_uses): (Option<
 
 #[test]
 fn do_8_an_honest_program_is_left_in_peace_for_both_eyes_and_turned() {
-    on_each_driver(|device| {
-        for stereo in ways(device).into_iter().chain([Stereo::Off]) {
+    on_each_driver_with(|device| {
+        for stereo in ways(&device).into_iter().chain([Stereo::Off]) {
             for rotation in Rotation::ALL {
                 let ways = Ways { stereo, rotation };
                 let upright = rotation == Rotation::Identity && stereo != Stereo::Off;
                 let pipelines: &[&str] = if upright { &[FOR_BOTH, TURNED] } else { &[TURNED] };
                 for pipeline in pipelines {
-                    let [plain, watched] = [false, true].map(|check| left(device, pipeline, ways, (None, check)));
+                    let [plain, watched] = [false, true].map(|check| left(&device, pipeline, ways, (None, check)));
                     assert_eq!(watched.told, [""; 0], "{pipeline}: {ways:?}");
                     assert_eq!(watched.outputs, plain.outputs, "{pipeline}: {ways:?}");
                     let seen = watched.pictures.filter(|_| *pipeline == FOR_BOTH);

@@ -84,16 +84,6 @@ fn what_is_the_same_for_both_eyes_cant_follow_from_the_eye() {
     }
 }
 
-/// What must be a constant can't be the eye: the module is valid for one eye, and isn't once it knows the eye.
-#[test]
-fn a_module_that_the_eye_makes_invalid_is_refused() {
-    for way in WAYS {
-        let refused = stages("sum += mono.SampleLevel(smooth, it.uv, 0.0, int2(eye_index, 0));", way);
-        let Err(ShaderProblem::Unsupported { what }) = refused else { panic!("{way:?}: {refused:?}") };
-        assert!(what.contains("it can't be made to draw for both eyes at once: "), "{way:?}: {what}");
-    }
-}
-
 #[test]
 fn a_stage_that_chooses_its_layer_is_refused_where_the_eye_chooses_it() {
     let text = "struct Corner { float4 position : SV_Position; uint layer : SV_RenderTargetArrayIndex; };
