@@ -220,7 +220,8 @@ fn watched_parts(plan: &Plan, uses: &Uses<'_>, states: &Contents, (number, step)
     let mut parts = Vec::new();
     for image in &plan.images {
         let resource = Resource::Image(image.id);
-        let owns = states.owners[image.id.0 as usize].is_some_and(|queue| (uses.family)(queue) == (uses.family)(step.queue));
+        let owns =
+            states.owners[image.id.0 as usize].is_some_and(|queue| (uses.family)(queue) == (uses.family)(step.queue));
         let here = uses.is_alone(resource, step) || image.sharing == Sharing::Exclusive && owns;
         // What a pass sets all of no other queue uses meanwhile.
         let may_look = |promise: &PartPromise| here || *promise == PartPromise::Replaced;

@@ -67,8 +67,7 @@ unsafe extern "system" fn count(commands: vk::CommandBuffer, info: *const vk::De
         let images = images.filter(|it| it.src_queue_family_index != it.dst_queue_family_index);
         let layers: Vec<u64> = images.map(|it| it.subresource_range.layer_count.into()).collect();
         LAYERS.fetch_add(layers.iter().sum(), Relaxed);
-        layers.len()
-            + buffers.filter(|it| it.src_queue_family_index != it.dst_queue_family_index).count()
+        layers.len() + buffers.filter(|it| it.src_queue_family_index != it.dst_queue_family_index).count()
     };
     OWNERS.fetch_add(owners as u64, Relaxed);
     let driver = *DRIVER.lock().expect("no test panicked here");

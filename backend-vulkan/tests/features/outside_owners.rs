@@ -3,7 +3,9 @@
 use crate::adopted::{adopted_with, made_with};
 use crate::counted_barriers::{counted, counted_layers, counting, counting_device};
 use crate::foreign::{destroy_buffer, destroy_image, own_buffer, own_image, own_image_with_layers};
-use crate::frames::{Small, Uses, copy, dispatch, draw, frame, library, on_each_driver, planned, texels, to_bytes, words};
+use crate::frames::{
+    Small, Uses, copy, dispatch, draw, frame, library, on_each_driver, planned, texels, to_bytes, words,
+};
 use framewright_graph::compile::Options;
 use framewright_graph::frame::{Cadence, Draw, EyeForm, Frame, Groups, Image, Lifetime, Pass, Resource, Stereo};
 use framewright_graph::plan::{Plan, Queue};

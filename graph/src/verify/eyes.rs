@@ -73,7 +73,8 @@ fn claims(plan: &Plan, found: &mut Findings<'_>) {
             } else if let Some(scope) = scope
                 && plan.eyes(scope).is_none()
             {
-                let what = format!("`{name}` is recorded for both eyes, and draws into nothing that holds both eyes' parts");
+                let what =
+                    format!("`{name}` is recorded for both eyes, and draws into nothing that holds both eyes' parts");
                 found.structure(Some(id), None, what);
             } else if scope.is_none() && !of_both(plan, &pass.accesses) {
                 let what = "is recorded for both eyes, and touches nothing that holds both eyes' parts";

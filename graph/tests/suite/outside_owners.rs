@@ -254,7 +254,9 @@ fn do_11_what_has_an_outside_owner_changes_hands_in_frames_that_leave_its_users_
                 let transfer = plan.steps[from].outside.remove(0);
                 plan.steps[to].outside.push(transfer);
             });
-            assert!(found.iter().any(|it| it.to_string().contains("is given back") || it.to_string().contains("is taken")));
+            assert!(
+                found.iter().any(|it| it.to_string().contains("is given back") || it.to_string().contains("is taken"))
+            );
         }
     }
 }

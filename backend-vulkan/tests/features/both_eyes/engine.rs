@@ -400,4 +400,3 @@ fn module(device: &Device, kind: shaderc::ShaderKind, text: &str) -> vk::ShaderM
 fn stage(stage: vk::ShaderStageFlags, module: vk::ShaderModule) -> vk::PipelineShaderStageCreateInfo<'static> {
     vk::PipelineShaderStageCreateInfo::default().stage(stage).module(module).name(c"main")
 }
-

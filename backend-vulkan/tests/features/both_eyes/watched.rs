@@ -48,7 +48,9 @@ impl Lies {
         }
         let victim = match self.lie {
             Some(Lie::WritesWhatItReads) if pass == "keep" => source,
-            Some(Lie::WritesAnother) if pass == "keep" || pass == "aside" => self.kept.expect("a pass before was handed it"),
+            Some(Lie::WritesAnother) if pass == "keep" || pass == "aside" => {
+                self.kept.expect("a pass before was handed it")
+            }
             _ => return,
         };
         copy_part(device, recorder.raw(), (&target, 0), (&victim, 1));
@@ -70,7 +72,11 @@ fn copy_part(device: &Device, commands: vk::CommandBuffer, from: Part<'_>, to: P
     let place = |(image, eye): Part<'_>| {
         let aside = if image.eyes == Some(EyeForm::Halves) { eye } else { 0 };
         let [x, y, _] = image.extent.map(|side| (aside * side).cast_signed());
-        let offset = if image.rotation.quarters() % 2 == 1 { vk::Offset3D { x: 0, y, z: 0 } } else { vk::Offset3D { x, y: 0, z: 0 } };
+        let offset = if image.rotation.quarters() % 2 == 1 {
+            vk::Offset3D { x: 0, y, z: 0 }
+        } else {
+            vk::Offset3D { x, y: 0, z: 0 }
+        };
         let layer = if image.eyes == Some(EyeForm::Layers) { eye } else { 0 };
         let layers = vk::ImageSubresourceLayers {
             aspect_mask: vk::ImageAspectFlags::COLOR,
@@ -117,9 +123,9 @@ fn left(device: &Device, pipeline: &str, ways: Ways, (lie, check_uses): (Option<
     let mut executor = Executor::new(device, &plan, &mut shaders, &options).expect("an executor");
     let mut engine = Engine::new(device);
     engine.lies.lie = lie;
-    let draws = ["draw", "draw (left)", "draw (right)"].into_iter().filter(|name| {
-        plan.steps.iter().flat_map(|step| step.work.passes()).any(|pass| *pass.name == **name)
-    });
+    let draws = ["draw", "draw (left)", "draw (right)"]
+        .into_iter()
+        .filter(|name| plan.steps.iter().flat_map(|step| step.work.passes()).any(|pass| *pass.name == **name));
     draws.for_each(|pass| engine.prepare(&executor, pass));
     let frames = (0..4).map(|_| match executor.frame(&mut engine) {
         Ok(_) => Vec::new(),
@@ -164,11 +170,16 @@ fn do_8_what_is_done_to_one_eyes_part_alone_is_told() {
         for stereo in ways(&device).into_iter().filter(|stereo| *stereo != Stereo::MultiPass) {
             let ways = Ways { stereo, rotation: Rotation::Identity };
             let others = " of 256 bytes of mip 0, layer 0 are others after it";
-            let reads = ["pass `keep` (", "declares `stored` as COPY, TRANSFER_READ, TRANSFER_SRC_OPTIMAL, and ", others];
+            let reads =
+                ["pass `keep` (", "declares `stored` as COPY, TRANSFER_READ, TRANSFER_SRC_OPTIMAL, and ", others];
             is_told(&device, FOR_BOTH, ways, Lie::WritesWhatItReads, reads);
             let another = ["pass `keep` (", "doesn't name `held`, and ", others];
             is_told(&device, FOR_BOTH, ways, Lie::WritesAnother, another);
-            let unset = ["pass `keep` (", "declares `kept` as COPY, TRANSFER_WRITE, TRANSFER_DST_OPTIMAL, and ", "32 of 64 texels of mip 0, layer 0 are not set by it"];
+            let unset = [
+                "pass `keep` (",
+                "declares `kept` as COPY, TRANSFER_WRITE, TRANSFER_DST_OPTIMAL, and ",
+                "32 of 64 texels of mip 0, layer 0 are not set by it",
+            ];
             is_told(&device, FOR_BOTH, ways, Lie::LeavesOneEye, unset);
         }
     });
@@ -179,12 +190,17 @@ fn do_8_what_is_done_to_a_turned_picture_is_told() {
     on_each_driver_with(|device| {
         for stereo in ways(&device).into_iter().filter(|stereo| *stereo != Stereo::MultiPass) {
             for rotation in Rotation::ALL {
-                let words = ["pass `aside` (", "doesn't name `screen`, and ", " of 256 bytes of mip 0, layer 0 are others after it"];
+                let words = [
+                    "pass `aside` (",
+                    "doesn't name `screen`, and ",
+                    " of 256 bytes of mip 0, layer 0 are others after it",
+                ];
                 is_told(&device, TURNED, Ways { stereo, rotation }, Lie::WritesAnother, words);
             }
         }
         let (stereo, rotation) = (Stereo::Off, Rotation::Rotate90);
-        let words = ["pass `aside` (", "doesn't name `screen`, and ", " of 128 bytes of mip 0, layer 0 are others after it"];
+        let words =
+            ["pass `aside` (", "doesn't name `screen`, and ", " of 128 bytes of mip 0, layer 0 are others after it"];
         is_told(&device, TURNED, Ways { stereo, rotation }, Lie::WritesAnother, words);
     });
 }

@@ -264,9 +264,10 @@ fn what_the_program_does_not_record_for_both_eyes_is_found() {
         let nothing = said(&|plan| {
             plan.images.iter_mut().for_each(|image| image.eyes = None);
         });
-        for expected in
-            ["`draw` is recorded for both eyes, and draws into nothing that", "for both eyes, and touches nothing that holds"]
-        {
+        for expected in [
+            "`draw` is recorded for both eyes, and draws into nothing that",
+            "for both eyes, and touches nothing that holds",
+        ] {
             assert!(nothing.contains(expected), "{stereo:?}: {nothing}");
         }
         let of_file = said(&|plan| scope(plan, "draw").passes[0].draw = Some(Draw::FullScreen));
