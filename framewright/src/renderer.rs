@@ -490,3 +490,6 @@ impl DrawnPlan {
         })
     }
 }
+
+#[cfg(test)]
+mod told_owners;

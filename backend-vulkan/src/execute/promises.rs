@@ -24,7 +24,7 @@ impl Promises {
     /// Those of `plan`.
     pub(super) fn new(gpu: &Gpu, plan: &Plan) -> Result<Promises, Error> {
         let heard = gpu.instance.validation.as_ref().map_or(0, |it| it.messages.list().len());
-        let steps = watch_list(gpu, plan)?.into();
+        let steps = watch_list(plan, &|queue| gpu.queues.families.family(queue).index)?.into();
         Ok(Promises {
             steps,
             declared: declared_uses(plan),

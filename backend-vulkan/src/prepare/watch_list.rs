@@ -4,7 +4,6 @@
 use super::descriptions::part;
 use super::uses::ResourceUses;
 use crate::base::Error;
-use crate::gpu::Gpu;
 use framewright_graph::base::Place;
 use framewright_graph::frame::{Cadence, Draw};
 use framewright_graph::plan::{
@@ -89,12 +88,12 @@ fn of_buffer(access: &BufferAccess) -> String {
     format!("{}, {}", name_of(&access.stages), name_of(&access.accesses))
 }
 
-/// Every step of a Plan that a program records.
+/// Every step of a Plan that a program records. `family`: the number of a queue's family, which has one queue.
 ///
 /// # Errors
 /// [`Error::BadPlan`] if something that lives within the frame can't be copied.
-pub(crate) fn watch_list(gpu: &Gpu, plan: &Plan) -> Result<Vec<WatchedStep>, Error> {
-    let uses = ResourceUses::new(plan);
+pub(crate) fn watch_list(plan: &Plan, family: &dyn Fn(Queue) -> u32) -> Result<Vec<WatchedStep>, Error> {
+    let uses = Uses { spans: ResourceUses::new(plan), families: users(plan, family), family };
     let mut states = Contents::new(plan);
     let mut list = Vec::new();
     for (number, step) in plan.steps.iter().enumerate() {
@@ -103,7 +102,7 @@ pub(crate) fn watch_list(gpu: &Gpu, plan: &Plan) -> Result<Vec<WatchedStep>, Err
         let passes = step.work.passes().iter().filter(is_custom);
         let passes: Vec<_> = passes.map(|pass| (pass.name.to_string(), pass.cause.at().cloned())).collect();
         if !passes.is_empty() {
-            let parts = watched_parts(gpu, plan, &uses, &states, (number, step));
+            let parts = watched_parts(plan, &uses, &states, (number, step));
             let (once, recorded) = (step.run == Cadence::Once, AtomicU32::new(0));
             list.push(WatchedStep { step: number, once, recorded, passes, parts });
         }
@@ -116,6 +115,35 @@ pub(crate) fn watch_list(gpu: &Gpu, plan: &Plan) -> Result<Vec<WatchedStep>, Err
             Err(Error::BadPlan { what: format!("`{}` can't be watched: compile the Plan with `readable`", part.name) })
         }
     }
+}
+
+/// The uses of a Plan's images and buffers.
+struct Uses<'f> {
+    spans: ResourceUses,
+    /// The queue families that use each.
+    families: HashMap<Resource, Vec<u32>>,
+    family: &'f dyn Fn(Queue) -> u32,
+}
+
+impl Uses<'_> {
+    /// Whether no other queue than a step's own uses it in any frame: such a step may change it for a while.
+    fn is_alone(&self, resource: Resource, step: &Step) -> bool {
+        let own = (self.family)(step.queue);
+        self.families.get(&resource).is_none_or(|families| families.iter().all(|family| *family == own))
+    }
+}
+
+fn users(plan: &Plan, family: &dyn Fn(Queue) -> u32) -> HashMap<Resource, Vec<u32>> {
+    let mut users: HashMap<Resource, Vec<u32>> = HashMap::new();
+    for step in &plan.steps {
+        for resource in step.touched() {
+            let families = users.entry(resource).or_default();
+            if !families.contains(&family(step.queue)) {
+                families.push(family(step.queue));
+            }
+        }
+    }
+    users
 }
 
 /// Whether an image or buffer can be copied from. What outlives the frame always can.
@@ -186,24 +214,19 @@ impl Contents {
     }
 }
 
-/// What tells whether the passes of a step keep to what they declare, of all that can be copied.
-fn watched_parts(
-    gpu: &Gpu,
-    plan: &Plan,
-    uses: &ResourceUses,
-    states: &Contents,
-    (number, step): (usize, &Step),
-) -> Vec<WatchedPart> {
+/// What tells whether the passes of a step keep to what they declare, of all that can be copied. To look at an image changes its layout,
+/// and to look for what isn't named fills it with garbage: neither may be where another queue may use it meanwhile.
+fn watched_parts(plan: &Plan, uses: &Uses<'_>, states: &Contents, (number, step): (usize, &Step)) -> Vec<WatchedPart> {
     let mut parts = Vec::new();
-    let family = |queue| gpu.queues.families.family(queue);
-    let one_family = plan.steps.iter().all(|other| family(other.queue) == family(step.queue));
     for image in &plan.images {
         let resource = Resource::Image(image.id);
-        let here = one_family
-            || image.sharing == Sharing::Concurrent
-            || states.owners[image.id.0 as usize].is_some_and(|queue| family(queue) == family(step.queue));
+        let owns =
+            states.owners[image.id.0 as usize].is_some_and(|queue| (uses.family)(queue) == (uses.family)(step.queue));
+        let here = uses.is_alone(resource, step) || image.sharing == Sharing::Exclusive && owns;
+        // What a pass sets all of no other queue uses meanwhile.
+        let may_look = |promise: &PartPromise| here || *promise == PartPromise::Replaced;
         let copied = image.samples == 1 && !image.usage.contains(Usage::TRANSIENT_ATTACHMENT);
-        if !here || !copied {
+        if !copied {
             continue;
         }
         let accesses = || step.work.passes().iter().flat_map(|pass| &pass.accesses).filter(|it| it.image == image.id);
@@ -223,8 +246,8 @@ fn watched_parts(
             let mut given_up = step.image_barriers.iter().filter(|it| it.image == image.id);
             let gives_up = given_up.any(|it| it.old_layout == Layout::Undefined && is_in(key, it.range))
                 || begins(plan, resource, number);
-            let lives = lives(plan, uses, resource, number) && !(named.is_empty() && is_file(&image.role));
-            if let Some(promise) = promise(&named, gives_up, lives) {
+            let lives = lives(plan, &uses.spans, resource, number) && !(named.is_empty() && is_file(&image.role));
+            if let Some(promise) = promise(&named, gives_up, lives).filter(may_look) {
                 let (name, said) = (image.name.to_string(), said(named));
                 parts.push(WatchedPart { resource, range, layout, name, format: Some(image.format), said, promise });
             }
@@ -236,7 +259,8 @@ fn watched_parts(
         let named: Vec<_> = accesses.map(|access| (access.accesses, of_buffer(access))).collect();
         let (range, layout) = (Subresources::WHOLE, Layout::Undefined);
         let gives_up = begins(plan, resource, number);
-        if let Some(promise) = promise(&named, gives_up, lives(plan, uses, resource, number)) {
+        let lives = lives(plan, &uses.spans, resource, number) && (!named.is_empty() || uses.is_alone(resource, step));
+        if let Some(promise) = promise(&named, gives_up, lives) {
             let said = said(named);
             parts.push(WatchedPart { resource, range, layout, name, format: None, said, promise });
         }
@@ -280,6 +304,81 @@ fn lives(plan: &Plan, uses: &ResourceUses, resource: Resource, step: usize) -> b
         // Outside of these steps it may belong to somebody else.
         Role::External { .. } => {
             uses.of(resource).is_some_and(|span| span.first.0 as usize <= step && span.last.0 as usize >= step)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use framewright_graph::base::Span;
+    use framewright_graph::compile::{Options, Order, compile};
+    use framewright_graph::device::{MemoryEstimate, Profile, Queues};
+    use framewright_graph::frame::{
+        Blend, Buffer, BufferIndex, DeclaredUse, Frame, Lifetime, Resource as Described, TransferUse, Work,
+    };
+    use framewright_graph::vulkan::{FillValue, Stages, State};
+    use framewright_tests::frames::{Builder, device};
+
+    /// A pass `own`, which any queue may run, copies `seed` to `list`. Meanwhile the image `large` and the buffer `other` live, which no pass
+    /// on another queue than that for graphics uses.
+    fn frame() -> Frame {
+        let mut builder = Builder::default();
+        let [large, shown] = ["large", "shown"].map(|name| builder.image(name, Format::R8G8B8A8_UNORM, 64, 1));
+        let names = ["seed", "list", "other", "last", "more"];
+        builder.0.buffers = names
+            .map(|name| Buffer { name: name.into(), span: Span::NONE, bytes: 32, lifetime: Lifetime::Transient })
+            .into();
+        let side = |buffer: u32, write| TransferUse {
+            resource: Described::Buffer(BufferIndex(buffer)),
+            range: Subresources::WHOLE,
+            frames_ago: 0,
+            span: Span::NONE,
+            write,
+            keeps: false,
+        };
+        let fill = || Work::Fill { value: FillValue::Bits([4, 0, 0, 0]) };
+        builder.pass("first", fill()).0.transfers = vec![side(0, true)];
+        builder.pass("second", fill()).0.transfers = vec![side(2, true)];
+        builder.full_screen("draw").clear(large);
+        let own = builder.pass("own", Work::Custom { callback: "own".into() }).0;
+        own.transfers = vec![side(0, false), side(1, true)];
+        let use_of = |buffer: u32, accesses| {
+            let state = State { stages: Stages::COPY, accesses, layout: Layout::Undefined };
+            DeclaredUse::new(Described::Buffer(BufferIndex(buffer)), state)
+        };
+        own.uses = vec![use_of(0, Accesses::TRANSFER_READ), use_of(1, Accesses::TRANSFER_WRITE)];
+        own.any_queue = true;
+        builder.full_screen("show").sample(large).color(shown, Blend::Replace);
+        builder.pass("take", Work::Copy).0.transfers = vec![side(1, false), side(3, true)];
+        builder.pass("take more", Work::Copy).0.transfers = vec![side(2, false), side(4, true)];
+        let mut frame = builder.outputs(&[shown]);
+        frame.outputs.extend([3, 4].map(|buffer| Described::Buffer(BufferIndex(buffer)).into()));
+        frame
+    }
+
+    /// DO-8: what a queue may use meanwhile no other one fills with garbage, nor changes its layout.
+    #[test]
+    fn do_8_what_another_queue_uses_is_left_alone() {
+        for sharing in [Sharing::Concurrent, Sharing::Exclusive] {
+            let queues = Queues { compute: true, transfer: false, sharing, wait_bytes: 0 };
+            let device = Profile { queues, ..device() };
+            let options = Options { readable: true, order: Order::File, ..Options::default() };
+            let plan = compile(&frame(), &device, &mut MemoryEstimate(&device), &options);
+            let plan = plan.unwrap_or_else(|errors| panic!("{errors:?}"));
+            let watched = |family: &dyn Fn(Queue) -> u32| {
+                let list = watch_list(&plan, family).expect("it can be read");
+                assert_eq!(list.len(), 1, "{}", plan.tree());
+                assert_eq!(plan.steps[list[0].step].queue, Queue::Compute, "{}", plan.tree());
+                let parts = list[0].parts.iter().map(|part| (part.name.clone(), part.promise));
+                parts.collect::<Vec<_>>()
+            };
+            let named = [("seed".to_owned(), PartPromise::Read), ("list".to_owned(), PartPromise::Replaced)];
+            assert_eq!(watched(&|queue| queue as u32), named, "{sharing:?}");
+            let of_one = watched(&|_| 0);
+            for name in ["large", "other"] {
+                assert!(of_one.contains(&(name.to_owned(), PartPromise::Unnamed)), "{sharing:?}: {of_one:?}");
+            }
         }
     }
 }

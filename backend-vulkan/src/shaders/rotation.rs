@@ -122,3 +122,31 @@ fn is_handed_on(function: &Function, it: &Instruction, knowing: &HashSet<u32>) -
 fn is_sideways(opcode: Op) -> bool {
     matches!(opcode, Op::DPdx | Op::DPdy | Op::DPdxFine | Op::DPdyFine | Op::DPdxCoarse | Op::DPdyCoarse)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    /// ST-5: a shipped file declares a constant by its own number; this is where the numbers stand.
+    #[test]
+    fn shipped_files_declare_the_constants_of_rotation_and_eye_by_their_numbers() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shaders/include");
+        let mut declared = Vec::new();
+        for file in std::fs::read_dir(folder).expect("the folder is there") {
+            let text = std::fs::read_to_string(file.expect("an entry").path()).expect("a text");
+            for line in text.lines().filter(|line| line.contains("constant_id")) {
+                // `layout(constant_id = 100) const uint name = 0u;`, or `[[vk::constant_id(100)]] const uint name = 0;`.
+                let (before, _) = line.rsplit_once(" = ").expect("it has a value");
+                let name = before.rsplit(' ').next().expect("a name").to_owned();
+                let number: String = before.chars().filter(char::is_ascii_digit).collect();
+                declared.push((name, number.parse::<u32>().expect("a number")));
+            }
+        }
+        for (number, name) in (ROTATION..).zip(CONSTANTS) {
+            let numbers: Vec<u32> = declared.iter().filter(|(of, _)| of == name).map(|it| it.1).collect();
+            assert!(!numbers.is_empty() && numbers.iter().all(|it| *it == number), "{name}: {numbers:?}, not {number}");
+        }
+        assert!(declared.iter().all(|(name, _)| CONSTANTS.contains(&&**name)), "{declared:?}");
+    }
+}

@@ -14,6 +14,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 static DRIVER: Mutex<Option<vk::PFN_vkCmdPipelineBarrier2>> = Mutex::new(None);
 static CALLS: AtomicU64 = AtomicU64::new(0);
 static OWNERS: AtomicU64 = AtomicU64::new(0);
+static LAYERS: AtomicU64 = AtomicU64::new(0);
 static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
 
 /// Has one test count at a time.
@@ -23,9 +24,14 @@ pub(crate) fn counting() -> MutexGuard<'static, ()> {
 
 /// How many calls `work` makes, and how many barriers change the owner in them.
 pub(crate) fn counted(work: impl FnOnce()) -> [u64; 2] {
-    [&CALLS, &OWNERS].iter().for_each(|counter| counter.store(0, Relaxed));
+    [&CALLS, &OWNERS, &LAYERS].iter().for_each(|counter| counter.store(0, Relaxed));
     work();
     [&CALLS, &OWNERS].map(|counter| counter.load(Relaxed))
+}
+
+/// How many layers of images changed the owner in what was [counted] last.
+pub(crate) fn counted_layers() -> u64 {
+    LAYERS.load(Relaxed)
 }
 
 /// A device with a queue of the first family, whose barriers are counted, and what destroys it.
@@ -58,8 +64,10 @@ unsafe extern "system" fn count(commands: vk::CommandBuffer, info: *const vk::De
         let info = &*info;
         let images = (0..info.image_memory_barrier_count as usize).map(|at| &*info.p_image_memory_barriers.add(at));
         let buffers = (0..info.buffer_memory_barrier_count as usize).map(|at| &*info.p_buffer_memory_barriers.add(at));
-        images.filter(|it| it.src_queue_family_index != it.dst_queue_family_index).count()
-            + buffers.filter(|it| it.src_queue_family_index != it.dst_queue_family_index).count()
+        let images = images.filter(|it| it.src_queue_family_index != it.dst_queue_family_index);
+        let layers: Vec<u64> = images.map(|it| it.subresource_range.layer_count.into()).collect();
+        LAYERS.fetch_add(layers.iter().sum(), Relaxed);
+        layers.len() + buffers.filter(|it| it.src_queue_family_index != it.dst_queue_family_index).count()
     };
     OWNERS.fetch_add(owners as u64, Relaxed);
     let driver = *DRIVER.lock().expect("no test panicked here");

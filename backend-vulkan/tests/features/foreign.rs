@@ -19,17 +19,23 @@ pub(crate) fn own_image(device: &Device) -> (vk::Image, vk::DeviceMemory) {
 }
 
 /// An image of the program's own of another format and size.
-pub(crate) fn own_image_like(
+pub(crate) fn own_image_like(device: &Device, format: Format, size: [u32; 2]) -> (vk::Image, vk::DeviceMemory) {
+    own_image_with_layers(device, format, size, 1)
+}
+
+/// The same with several layers.
+pub(crate) fn own_image_with_layers(
     device: &Device,
     format: Format,
     [width, height]: [u32; 2],
+    layers: u32,
 ) -> (vk::Image, vk::DeviceMemory) {
     let info = vk::ImageCreateInfo::default()
         .image_type(vk::ImageType::TYPE_2D)
         .format(vk::Format::from_raw(format.vulkan()))
         .extent(vk::Extent3D { width, height, depth: 1 })
         .mip_levels(1)
-        .array_layers(1)
+        .array_layers(layers)
         .samples(vk::SampleCountFlags::TYPE_1)
         .usage(
             vk::ImageUsageFlags::COLOR_ATTACHMENT

@@ -1,11 +1,13 @@
 //! Images that two devices share (DO-11): memory of one that the other imports, and owners that change with each frame.
 
 use crate::adopted::{adopted_with, made_with};
-use crate::counted_barriers::{counted, counting, counting_device};
-use crate::foreign::{destroy_buffer, destroy_image, own_buffer, own_image};
-use crate::frames::{Small, Uses, dispatch, draw, frame, library, on_each_driver, planned, texels, to_bytes, words};
+use crate::counted_barriers::{counted, counted_layers, counting, counting_device};
+use crate::foreign::{destroy_buffer, destroy_image, own_buffer, own_image, own_image_with_layers};
+use crate::frames::{
+    Small, Uses, copy, dispatch, draw, frame, library, on_each_driver, planned, texels, to_bytes, words,
+};
 use framewright_graph::compile::Options;
-use framewright_graph::frame::{Draw, Frame, Groups, Image, Lifetime, Pass};
+use framewright_graph::frame::{Cadence, Draw, EyeForm, Frame, Groups, Image, Lifetime, Pass, Resource, Stereo};
 use framewright_graph::plan::{Plan, Queue};
 use framewright_graph::vulkan::{Accesses, Aspects, Format, Layout, Stages, State, Subresources};
 use framewright_vulkan::ash::{self, khr, vk};
@@ -373,5 +375,92 @@ fn do_11_a_device_refuses_owners_that_it_can_take_nothing_from() {
             }
             (told, made) => panic!("{told:?}, {:?}", made.err()),
         }
+    });
+}
+
+/// A step that is left out takes and gives all the same: the owner has the image between all frames (DO-9).
+#[test]
+fn do_11_frames_that_leave_its_user_out_take_it_and_give_it_back() {
+    let _alone = counting();
+    // It stays in one layout, so that no other step has to do with it.
+    let copied = State { stages: Stages::COPY, accesses: Accesses::TRANSFER_READ, layout: Layout::TransferSrcOptimal };
+    let mut given = gives();
+    given.images[0] = shared(State { layout: Layout::Undefined, ..SHARED }, Some(copied));
+    let mut small = Small::default();
+    let shared = small.image_like(shared_with(copied, Some(copied), Some(OutsideOwner::External)));
+    let [kept, shown] = ["kept", "shown"].map(|name| small.image(name, Format::R32_UINT, [2, 2]));
+    let [from, to] = [shared, kept].map(Resource::Image);
+    small.pass(Pass { run: Cadence::Once, ..copy("once", (from, WHOLE), (to, WHOLE)) });
+    small.pass(draw("double", Draw::FullScreen).samples("source", kept, WHOLE).draws(shown, WHOLE, None));
+    small.image_output(shown);
+    on_each_driver(|like| {
+        let (raw, device) = counting_device(like);
+        let own = own_image(&device);
+        let [mut gives, mut takes] = [&given, &small.frame].map(|frame| executor(&device, frame));
+        // SAFETY: it is made as the Plans say and outlives the executors. On one device nobody takes it while it is given away.
+        unsafe {
+            gives.import_image("shared", own.0).expect("it is external");
+            takes.import_image("shared", own.0).expect("it is external");
+        }
+        let owners = |executor: &mut Executor| counted(|| frame(executor))[1];
+        frame(&mut gives);
+        assert_eq!([(); 3].map(|()| owners(&mut takes)), [2; 3], "as the pipeline says");
+        assert_eq!(texels(&mut takes, "shown", 0), [0, 2, 20, 22]);
+        is_outside(&mut takes);
+        takes.set_owner("shared", None).expect("it is external");
+        assert_eq!([(); 3].map(|()| owners(&mut takes)), [1, 0, 0], "it is taken from whom it was given to");
+        takes.set_owner("shared", Some(OutsideOwner::External)).expect("it is external");
+        assert_eq!([(); 3].map(|()| owners(&mut takes)), [1, 2, 2]);
+        assert_eq!(texels(&mut takes, "shown", 0), [0, 2, 20, 22]);
+        drop((gives, takes));
+        // SAFETY: the executors were dropped, and nothing made from the device is left.
+        unsafe {
+            destroy_image(&device, own);
+            drop(device);
+            raw.destroy_device(None);
+        }
+    });
+}
+
+/// Both eyes' parts of an image change hands together, in two layers or side by side (ST-2).
+#[test]
+fn do_11_an_image_of_both_eyes_changes_hands_whole() {
+    let _alone = counting();
+    on_each_driver(|like| {
+        let (raw, device) = counting_device(like);
+        let ways = [(Stereo::DoubleWide, EyeForm::Halves, [4, 2], 1), (Stereo::Multiview, EyeForm::Layers, [2, 2], 2)];
+        for (stereo, form, size, layers) in ways {
+            if stereo.lacks(&device.profile()).is_some() {
+                continue;
+            }
+            let own = own_image_with_layers(&device, Format::R32_UINT, size, layers);
+            let [mut gives, mut takes] = [gives(), takes_from(Some(OutsideOwner::External))].map(|mut frame| {
+                frame.stereo = stereo;
+                frame.images.iter_mut().for_each(|image| image.eyes = Some(form));
+                executor(&device, &frame)
+            });
+            // SAFETY: it is made as the Plans say and outlives the executors. On one device nobody takes it while it is given away.
+            unsafe {
+                gives.import_image("shared", own.0).expect("it is external");
+                takes.import_image("shared", own.0).expect("it is external");
+            }
+            frame(&mut gives);
+            for _ in 0..2 {
+                let owners = counted(|| frame(&mut takes))[1];
+                assert_eq!((owners, counted_layers()), (2, 2 * u64::from(layers)), "{stereo:?}");
+            }
+            let doubled = texels(&mut takes, "doubled", 0);
+            let [width, height] = size;
+            let one = (0..width * height).map(|at| 2 * (at % width + 10 * (at / width)));
+            let both: Vec<u32> = (0..layers).flat_map(|_| one.clone()).collect();
+            assert_eq!(doubled, both, "{stereo:?}");
+            is_outside(&mut takes);
+            drop((gives, takes));
+            // SAFETY: the executors were dropped.
+            unsafe { destroy_image(&device, own) };
+        }
+        drop(device);
+        // SAFETY: nothing made from the device is left.
+        unsafe { raw.destroy_device(None) };
     });
 }

@@ -5,9 +5,11 @@ use crate::frames::{
     Custom, Small, Uses, copy, draw, library, on_each_driver, on_each_driver_with, planned, texels, transfer, words,
 };
 use ash::vk;
-use framewright_graph::compile::Options;
+use framewright_graph::compile::{Options, Order, compile};
+use framewright_graph::device::{Profile, Queues};
 use framewright_graph::frame::{Cadence, DeclaredUse, Draw, Frame, Pass, Resource, Work};
-use framewright_graph::vulkan::{Accesses, FillValue, Format, Layout, Stages, State, Subresources};
+use framewright_graph::plan::Queue;
+use framewright_graph::vulkan::{Accesses, FillValue, Format, Layout, Sharing, Stages, State, Subresources};
 use framewright_vulkan::{BrokenPromise, CustomRecorder, Device, Error, Executor, ExecutorOptions};
 use std::cell::Cell;
 
@@ -377,12 +379,80 @@ fn a_plan_that_cannot_be_read_is_refused() {
     on_each_driver(|device| {
         let options = ExecutorOptions { check_uses: true, ..ExecutorOptions::default() };
         let made = |readable| {
-            let order = framewright_graph::compile::Order::File;
+            let order = Order::File;
             let plan = planned(device, &small.frame, &Options { readable, order, ..Options::default() });
             Executor::new(device, &plan, &mut library(SHADERS), &options).map(drop).map_err(|error| error.to_string())
         };
         assert_eq!(made(true), Ok(()));
         let said = made(false).expect_err("it can't be copied");
         assert!(said.contains("`drawn` can't be watched: compile the Plan with `readable`"), "{said}");
+    });
+}
+
+/// What four frames of a program are told whose pass `own` runs on the queue for compute, beside draws, and copies `seed` to `list`. A lie is
+/// that it writes `seed` too.
+fn told_of_compute(device: &Device, sharing: Sharing, lies: bool) -> Vec<String> {
+    let mut small = Small::default();
+    let [seed, list, last] = ["seed", "list", "last"].map(|name| small.buffer(name, 8));
+    let [large, shown] = ["large", "shown"].map(|name| small.image(name, Format::R32_UINT, [64, 64]));
+    let [from, to, kept] = [seed, list, last].map(Resource::Buffer);
+    let four = FillValue::Bits([4, 0, 0, 0]);
+    small.pass(transfer("first", Work::Fill { value: four }, &[(from, WHOLE, true)]));
+    small.pass(draw("number", Draw::FullScreen).draws(large, WHOLE, None));
+    let own = Work::Custom { callback: "own".into() };
+    let mut own = transfer("own", own, &[(from, WHOLE, false), (to, WHOLE, true)]);
+    let declared = |resource, accesses| {
+        DeclaredUse::new(resource, State { stages: Stages::COPY, accesses, layout: Layout::Undefined })
+    };
+    own.uses = vec![declared(from, Accesses::TRANSFER_READ), declared(to, Accesses::TRANSFER_WRITE)];
+    own.any_queue = true;
+    small.pass(own);
+    small.pass(draw("show", Draw::FullScreen).samples("source", large, WHOLE).draws(shown, WHOLE, None));
+    small.pass(copy("take", (to, WHOLE), (kept, WHOLE)));
+    small.image_output(shown);
+    small.buffer_output(last);
+    let queues = Queues { compute: true, transfer: true, sharing, wait_bytes: 0 };
+    let profile = Profile { queues, ..device.profile() };
+    let options = Options { readable: true, order: Order::File, ..Options::default() };
+    let plan = compile(&small.frame, &profile, &mut device.memory(), &options);
+    let plan = plan.unwrap_or_else(|errors| panic!("{errors:?}"));
+    let own = plan.steps.iter().find(|step| step.work.passes().iter().any(|pass| *pass.name == *"own"));
+    assert_eq!(own.expect("it runs").queue, Queue::Compute, "{}", plan.tree());
+    let options = ExecutorOptions { check_uses: true, ..ExecutorOptions::default() };
+    let mut executor = Executor::new(device, &plan, &mut library(SHADERS), &options).expect("an executor");
+    let mut record = Custom(|recorder: &mut CustomRecorder<'_>| {
+        recorder.copy("seed", "list");
+        if lies {
+            let (commands, seed) = (recorder.raw(), recorder.buffer("seed").expect("the pass names it"));
+            // SAFETY: the buffer lives. It is a lie, which a software driver forgives.
+            unsafe { device.raw().cmd_fill_buffer(commands, seed, 8, 4, 77) };
+        }
+    });
+    let frames = (0..4).map(|_| match executor.frame(&mut record) {
+        Ok(_) => Vec::new(),
+        Err(Error::BrokenPromises { promises }) => promises.iter().map(ToString::to_string).collect(),
+        Err(error) => panic!("{error}"),
+    });
+    let told = frames.collect::<Vec<Vec<String>>>().concat();
+    assert_eq!(texels(&mut executor, "shown", 0), (0..4096).map(|at| at % 64 + 10 * (at / 64)).collect::<Vec<_>>());
+    if !lies {
+        assert_eq!(words(&mut executor, "last"), [4; 8]);
+    }
+    told
+}
+
+#[test]
+fn do_8_what_a_pass_on_a_queue_for_compute_does_is_told() {
+    on_each_driver(|device| {
+        for sharing in [Sharing::Concurrent, Sharing::Exclusive] {
+            assert_eq!(told_of_compute(device, sharing, false), [""; 0], "{sharing:?}");
+        }
+    });
+    on_each_driver_with(|device| {
+        for sharing in [Sharing::Concurrent, Sharing::Exclusive] {
+            let said = told_of_compute(&device, sharing, true);
+            let wanted = "pass `own` declares `seed` as COPY, TRANSFER_READ, and 1 of 32 bytes are others after it";
+            assert!(said.iter().any(|it| it.starts_with(wanted)), "{sharing:?}: {said:?}");
+        }
     });
 }

@@ -91,6 +91,31 @@ fn a_shader_that_asks_is_fine_in_every_mode() {
     }
 }
 
+/// A shader in HLSL is told the words and the file that HLSL has.
+#[test]
+fn a_shader_in_hlsl_is_told_what_hlsl_has_for_halves() {
+    let place = Place::new();
+    place.file(
+        "p.ron",
+        r#"Pipeline(version: 1, images: [(name: "screen", format: Output, size: Output, per_eye: true)],
+            passes: [(name: "effect", draw: FullScreen("effect.hlsl"), color: ["screen"])], outputs: ["screen"])"#,
+    );
+    let text = |place: &str| {
+        format!(
+            "#include \"include/rotation.hlsl\"\n
+            float4 main(float4 at : SV_Position) : SV_Target0 {{ return float4({place}.xy / 64.0, 0.0, 1.0); }}"
+        )
+    };
+    for (stereo, device) in IN_HALVES {
+        place.file("effect.hlsl", text("at"));
+        let said = check(&place, stereo, device).exits(1);
+        let said = said.mentions("error: shader `effect.hlsl` reads `SV_Position` without `frag_coord()`");
+        said.mentions("`frag_coord()` of `include/rotation.hlsl` is the place in the eye's own picture");
+        place.file("effect.hlsl", text("frag_coord(at)"));
+        check(&place, stereo, device).exits(0);
+    }
+}
+
 #[test]
 fn raw_fragment_coordinates_are_found_in_halves_and_only_there() {
     let place = place("found_in(source, source_st, gl_FragCoord.xy)");

@@ -62,6 +62,32 @@ fn a_camera_in_a_buffer_for_both_eyes_is_noted() {
     }
 }
 
+/// The vertex stage's language says what the stage includes.
+#[test]
+fn a_camera_for_both_eyes_in_hlsl_is_noted_with_what_hlsl_includes() {
+    let place = Place::new();
+    place.file(
+        "p.ron",
+        r#"Pipeline(version: 1,
+            images: [(name: "screen", format: Output, size: Output, per_eye: true)],
+            buffers: [(name: "camera", bytes: 80)],
+            passes: [
+                (name: "set", fill: (to: "camera", value: 0)),
+                (name: "cube", draw: Vertices(6), shader: (vertex: "cube.hlsl:place", fragment: "cube"),
+                    uniform: {"camera": "camera"}, color: [(image: "screen", clear: (0, 0, 0, 1))]),
+            ],
+            outputs: ["screen"])"#,
+    );
+    place.file("cube.frag", FRAGMENT);
+    place.file(
+        "cube.hlsl",
+        "cbuffer camera : register(b0) { float4x4 world_to_clip; float4 place_of; };
+        float4 place(uint vertex : SV_VertexID) : SV_Position { return mul(world_to_clip, float4(vertex, vertex, 0, 1)); }",
+    );
+    let outcome = place.run(&["check", "p.ron", "--stereo", "multi-pass"]).exits(0);
+    assert!(outcome.out.contains("choose by `eye_index` of `include/stereo.hlsl` (p.ron:"), "{}", outcome.out);
+}
+
 #[test]
 fn what_has_no_camera_or_asks_for_the_eye_is_not_noted() {
     let by_eye = "#include \"include/stereo.glsl\"

@@ -26,6 +26,8 @@ pub struct LanguageFacts {
     pub ending: &'static str,
     /// The ending of the shipped files that it includes, `include/part.hlsl`; `None`: it isn't told what passes tell of images and eyes.
     pub includes: Option<&'static str>,
+    /// What it calls the place of a fragment.
+    pub place: &'static str,
 }
 
 impl FileLanguage {
@@ -36,13 +38,19 @@ impl FileLanguage {
     /// What there is to know of it.
     #[must_use]
     pub const fn facts(self) -> LanguageFacts {
-        let (name, ending, includes) = match self {
-            FileLanguage::Spirv => ("SPIR-V", ".spv", None),
-            FileLanguage::Hlsl => ("HLSL", ".hlsl", Some(".hlsl")),
-            FileLanguage::Slang => ("Slang", ".slang", Some(".hlsl")),
-            FileLanguage::Wgsl => ("WGSL", ".wgsl", None),
+        let (name, ending, includes, place) = match self {
+            FileLanguage::Spirv => ("SPIR-V", ".spv", None, "FragCoord"),
+            FileLanguage::Hlsl => ("HLSL", ".hlsl", Some(".hlsl"), "SV_Position"),
+            FileLanguage::Slang => ("Slang", ".slang", Some(".hlsl"), "SV_Position"),
+            FileLanguage::Wgsl => ("WGSL", ".wgsl", None, "@builtin(position)"),
         };
-        LanguageFacts { name, ending, includes }
+        LanguageFacts { name, ending, includes, place }
+    }
+
+    /// What a language, of which `None` is GLSL, calls the place of a fragment.
+    #[must_use]
+    pub fn place(language: Option<FileLanguage>) -> &'static str {
+        language.map_or("gl_FragCoord", |it| it.facts().place)
     }
 
     /// The language of a file, by its ending.
@@ -54,9 +62,15 @@ impl FileLanguage {
     /// The language of the stage that draws colours, or computes, in the shader of this text; `None`: GLSL.
     #[must_use]
     pub fn of_shader(text: &str) -> Option<FileLanguage> {
-        match ShaderName::of_text(text).main() {
-            StageName::Glsl(_) => None,
-            StageName::File { file, .. } => FileLanguage::of_file(file),
+        ShaderName::of_text(text).main().language()
+    }
+
+    /// The language of the stage that places vertices in the shader of this text; `None`: GLSL.
+    #[must_use]
+    pub fn of_vertices(text: &str) -> Option<FileLanguage> {
+        match ShaderName::of_text(text) {
+            ShaderName::Whole(stage) => stage.language(),
+            ShaderName::Stages { vertex, .. } => vertex?.language(),
         }
     }
 }
@@ -133,6 +147,14 @@ impl StageName {
             Some(at) => StageName::File { file: text[..at].into(), entry: Some(text[at + 1..].into()) },
             None if FileLanguage::of_file(text).is_some() => StageName::File { file: text.into(), entry: None },
             None => StageName::Glsl(text.into()),
+        }
+    }
+
+    /// The language that it is written in; `None`: GLSL.
+    fn language(&self) -> Option<FileLanguage> {
+        match self {
+            StageName::Glsl(_) => None,
+            StageName::File { file, .. } => FileLanguage::of_file(file),
         }
     }
 

@@ -7,6 +7,7 @@ use crate::plan::{Access, ImageId, Plan, RenderScope, Side, StepId, Transfer, Wo
 use crate::vulkan::{Accesses, Shape};
 
 pub(super) fn check(plan: &Plan, found: &mut Findings<'_>) {
+    claims(plan, found);
     if !plan.images.iter().any(|image| image.eyes.is_some()) {
         return;
     }
@@ -47,7 +48,7 @@ pub(super) fn check(plan: &Plan, found: &mut Findings<'_>) {
                     }
                 }
             }
-            Work::Custom(pass) if pass.both_eyes => of_both(plan, id, &pass.accesses, found),
+            Work::Custom(pass) if pass.both_eyes => named_eyes(plan, id, &pass.accesses, found),
             Work::Dispatch(pass) => {
                 let (layers, others): (Vec<&Access>, Vec<&Access>) =
                     pass.accesses.iter().partition(|access| layers_of_eyes::stored(plan, access));
@@ -72,6 +73,34 @@ pub(super) fn check(plan: &Plan, found: &mut Findings<'_>) {
         }
     }
     layers_of_eyes::check(plan, found);
+}
+
+/// What says that a program records it for both eyes at once is recorded by one, in a scope of both if it draws.
+fn claims(plan: &Plan, found: &mut Findings<'_>) {
+    for (id, step) in (0..).map(StepId).zip(&plan.steps) {
+        let scope = step.work.scope();
+        for pass in step.work.passes().iter().filter(|pass| pass.both_eyes) {
+            let custom = step.work.is_custom() || pass.draw.is_some_and(Draw::is_custom);
+            let name = &pass.name;
+            if !custom {
+                found.structure(Some(id), None, format!("`{name}` is recorded for both eyes, and by no program"));
+            } else if let Some(scope) = scope
+                && plan.eyes(scope).is_none()
+            {
+                let what =
+                    format!("`{name}` is recorded for both eyes, and draws into nothing that holds both eyes' parts");
+                found.structure(Some(id), None, what);
+            } else if scope.is_none() && !of_both(plan, &pass.accesses) {
+                let what = "is recorded for both eyes, and touches nothing that holds both eyes' parts";
+                found.structure(Some(id), None, what);
+            }
+        }
+    }
+}
+
+/// Whether accesses reach both eyes' parts of an image.
+fn of_both(plan: &Plan, accesses: &[Access]) -> bool {
+    accesses.iter().any(|access| access.eye.is_none() && plan.image(access.image).eyes.is_some())
 }
 
 /// All attachments of a scope, and the images that they are resolved into, hold both eyes' parts alike, or none does.
@@ -106,14 +135,6 @@ fn of_an_eye<'p>(
         } else if !both && access.eye.is_none() {
             found.structure(Some(id), Some(image.0), "holds both eyes' parts, and a pass doesn't say whose it reads");
         }
-    }
-    named_eyes(plan, id, accesses, found);
-}
-
-/// What the program records outside of rendering scopes for both eyes reaches both parts, or one that is named and only sampled.
-fn of_both(plan: &Plan, id: StepId, accesses: &[Access], found: &mut Findings<'_>) {
-    if !accesses.iter().any(|access| plan.image(access.image).eyes.is_some() && access.eye.is_none()) {
-        found.structure(Some(id), None, "is recorded for both eyes, and touches nothing that holds both eyes' parts");
     }
     named_eyes(plan, id, accesses, found);
 }

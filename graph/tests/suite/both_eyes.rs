@@ -422,6 +422,73 @@ fn a_compute_pass_stores_into_one_eyes_layer_and_no_half() {
     }
 }
 
+/// DO-12: `both_eyes` is said of what a program records, and of what holds both eyes' parts.
+#[test]
+fn a_pass_that_can_not_be_recorded_for_both_eyes_and_says_so_is_refused() {
+    type Change = fn(&mut Frame);
+    let nothing_drawn = "`show` says `both_eyes`, and draws into nothing that holds both eyes' parts";
+    let nothing_touched = "`outside` says `both_eyes`, and touches nothing that holds both eyes' parts";
+    let changes: [(&str, Change); 9] = [
+        ("`opaque` says `both_eyes`, and no program records it", |frame| frame.passes[1].both_eyes = true),
+        ("`keep` says `both_eyes`, and no program records it", |frame| {
+            frame.passes.push(Pass { both_eyes: true, ..dispatch("keep", SCREEN, false) });
+        }),
+        ("`keep` accesses as storage `screen`, which holds both eyes' parts", |frame| {
+            frame.passes.push(Pass { both_eyes: true, ..dispatch("keep", SCREEN, false) });
+        }),
+        ("`scale` transfers `screen`, which holds both eyes' parts", |frame| {
+            frame.images.push(Image::new("more", R8G8B8A8_SRGB, 32, 32));
+            let work = Work::Blit { filter: Filter::Linear };
+            let scale = transfers("scale", work, &[(SCREEN, false), (ImageIndex(4), true)]);
+            frame.passes.push(Pass { both_eyes: true, ..scale });
+        }),
+        (nothing_drawn, |frame| draws_alone(frame)),
+        // What it draws into decides for whom it samples.
+        ("`show` draws for one eye and doesn't say which it samples of `color`", |frame| draws_alone(frame)),
+        (nothing_touched, |frame| {
+            let outside = transfers("outside", Work::Custom { callback: "it".into() }, &[(NOISE, false)]);
+            frame.passes.push(Pass { both_eyes: true, ..outside });
+        }),
+        (nothing_touched, |frame| {
+            let mut outside = Pass::new("outside", Work::Custom { callback: "it".into() });
+            outside.sampled = vec![SampledImage { eye: Some(Eye::Left), ..frame.passes[2].sampled[0].clone() }];
+            outside.sampled[0].image = SCREEN;
+            frame.passes.push(Pass { both_eyes: true, side_effect: true, ..outside });
+        }),
+        ("`show` samples one eye's part of `noise`, which holds one picture", |frame| {
+            sampled(frame, 2, 1).eye = Some(Eye::Right);
+        }),
+    ];
+    let mut missed = Vec::new();
+    for (stereo, form) in MODES {
+        for (expected, change) in changes {
+            let mut frame = frame(stereo, form);
+            change(&mut frame);
+            let said = refused(&frame);
+            if !said.contains(expected) {
+                missed.push(format!("{stereo:?} {form:?}: `{expected}` is not in\n{said}"));
+            }
+        }
+    }
+    assert!(missed.is_empty(), "{}", missed.join("\n"));
+    // Also where no image holds both.
+    let mut plain = frame(Stereo::Off, EyeForm::Layers);
+    plain.images.iter_mut().for_each(|image| image.eyes = None);
+    compiled(&plain);
+    custom(&mut plain.passes[2], true);
+    assert!(refused(&plain).contains(nothing_drawn), "{}", refused(&plain));
+}
+
+/// `show` draws into an image that both eyes share.
+fn draws_alone(frame: &mut Frame) {
+    frame.images.push(Image::new("more", R8G8B8A8_SRGB, 64, 64));
+    frame.images[0].samples = 1;
+    frame.images[1].samples = 1;
+    custom(&mut frame.passes[2], true);
+    frame.passes[2].color[0].image = ImageIndex(4);
+    frame.outputs = vec![Resource::Image(ImageIndex(4)).into()];
+}
+
 #[test]
 fn a_form_that_the_mode_does_not_draw_is_refused() {
     for stereo in Stereo::ALL {

@@ -4,7 +4,8 @@ use crate::queues::Builder;
 use crate::testing::pipelines::{INPUTS, right};
 use crate::testing::plans::{compiled, on, shipped};
 use framewright_graph::device::{Profile, Queues};
-use framewright_graph::frame::Lifetime;
+use framewright_graph::expand::Inputs;
+use framewright_graph::frame::{Lifetime, Stereo};
 use framewright_graph::plan::{OutsideTransfer, OutsideWay, Plan, Queue, Resource, Role, Totals};
 use framewright_graph::verify::{Violation, verify};
 use framewright_graph::vulkan::{Accesses, Layout, OutsideOwner, Sharing, Stages, State};
@@ -212,4 +213,102 @@ fn do_11_what_has_an_outside_owner_stays_on_one_queue() {
     let said = owned.set_owner(staging, Some(OutsideOwner::Foreign)).expect_err("two queues use it");
     assert!(said.contains("several queues use `staging`"), "{said}");
     assert!(verify(&owned).iter().any(|it| it.to_string().contains("is used on two queues")), "{:?}", verify(&owned));
+}
+
+/// Two passes that run in these frames shrink a camera's picture, and others show what they made.
+fn taken_now_and_then([first, second]: [&str; 2], owner: &str) -> Plan {
+    let text = format!(
+        r#"Pipeline(version: 1, images: [
+            (name: "camera", format: R8G8B8A8_UNORM, size: Output, lifetime: Imported(before: Sampled, after: Sampled{owner})),
+            (name: "half", format: R8G8B8A8_UNORM, size: Scaled(0.5)), (name: "other_half", format: R8G8B8A8_UNORM, size: Scaled(0.5)),
+            (name: "shown", format: R8G8B8A8_UNORM, size: Output), (name: "other", format: R8G8B8A8_UNORM, size: Output)],
+         passes: [
+            (name: "first", run: {first}, draw: FullScreen("downsample"), sample: {{"source": "camera"}}, color: ["half"]),
+            (name: "second", run: {second}, draw: FullScreen("downsample"), sample: {{"source": "camera"}}, color: ["other_half"]),
+            (name: "show", draw: FullScreen("downsample"), sample: {{"source": "half"}}, color: ["shown"]),
+            (name: "show_other", draw: FullScreen("downsample"), sample: {{"source": "other_half"}}, color: ["other"])],
+         outputs: ["shown", "other"])"#
+    );
+    compiled(&right(&text, &INPUTS))
+}
+
+/// Barriers stand in every frame, so a step that is left out takes and gives as it does where it runs (DO-9).
+#[test]
+fn do_11_what_has_an_outside_owner_changes_hands_in_frames_that_leave_its_users_out() {
+    for runs in [["Once", "Always"], ["Always", "Once"], ["Once", "Once"], ["Every(4)", "Once"]] {
+        let plan = taken_now_and_then(runs, ", owner: Foreign");
+        let (camera, tree) = (resource(&plan, "camera"), plan.tree());
+        let users = (0..plan.steps.len()).filter(|step| plan.steps[*step].work.used().any(|(it, _)| it == camera));
+        let users: Vec<usize> = users.collect();
+        assert_eq!(users.len(), 2, "{runs:?}: {tree}");
+        assert!(users.iter().any(|step| !plan.steps[*step].run.is_always()), "{runs:?}: {tree}");
+        let made: Vec<_> = transfers(&plan).into_iter().map(|(step, it)| (step, it.way)).collect();
+        assert_eq!(made, [(users[0], OutsideWay::Acquire), (users[1], OutsideWay::Release)], "{runs:?}: {tree}");
+        assert_eq!(verify(&plan), [], "{runs:?}: {tree}");
+        let mut told = taken_now_and_then(runs, "");
+        told.set_owner(camera, Some(OutsideOwner::Foreign)).expect("it is external");
+        assert_eq!(told, plan, "{runs:?}");
+        // What always runs can't take it for what ran before it once, and what runs once can't give it back too early.
+        for [from, to] in [[users[0], users[1]], [users[1], users[0]]] {
+            let found = broken(&plan, |plan| {
+                let transfer = plan.steps[from].outside.remove(0);
+                plan.steps[to].outside.push(transfer);
+            });
+            assert!(
+                found.iter().any(|it| it.to_string().contains("is given back") || it.to_string().contains("is taken"))
+            );
+        }
+    }
+}
+
+/// Each eye's image is taken for itself, and an image that holds both eyes' parts as a whole.
+#[test]
+fn do_11_what_each_eye_has_changes_hands_for_both() {
+    let plan = |stereo, [first, second]: [&str; 2]| {
+        let text = format!(
+            r#"Pipeline(version: 1, images: [
+                (name: "camera", format: R8G8B8A8_UNORM, size: Output, per_eye: true, lifetime: Imported(before: Sampled, after: Sampled{first})),
+                (name: "shown", format: R8G8B8A8_UNORM, size: Output, per_eye: true,
+                    lifetime: Imported(before: Undefined, after: (stages: [], accesses: [], layout: GENERAL){second}))],
+             passes: [(name: "show", draw: FullScreen("reinhard"), sample: {{"source": "camera"}}, color: ["shown"])],
+             outputs: ["shown"])"#
+        );
+        compiled(&right(&text, &Inputs { stereo, ..INPUTS }))
+    };
+    let sides = ["camera (left)", "camera (right)", "shown (left)", "shown (right)"];
+    let whole = ["camera", "shown"];
+    for (stereo, names) in [
+        (Stereo::Off, &whole[..]),
+        (Stereo::MultiPass, &sides[..]),
+        (Stereo::DoubleWide, &whole[..]),
+        (Stereo::Instanced, &whole[..]),
+        (Stereo::Multiview, &whole[..]),
+    ] {
+        let owned = plan(stereo, OWNED);
+        let tree = owned.tree();
+        let of = |name: &str| {
+            let resource = resource(&owned, name);
+            let made = transfers(&owned).into_iter().filter(move |(_, it)| it.resource == resource);
+            made.map(|(_, it)| (it.way, it.owner)).collect::<Vec<_>>()
+        };
+        for name in names {
+            let expected = if name.starts_with("camera") {
+                vec![(OutsideWay::Acquire, OutsideOwner::Foreign), (OutsideWay::Release, OutsideOwner::Foreign)]
+            } else {
+                vec![(OutsideWay::Release, OutsideOwner::External)]
+            };
+            assert_eq!(of(name), expected, "{stereo:?}, `{name}`: {tree}");
+            let Resource::Image(image) = resource(&owned, name) else { panic!("`{name}` is an image") };
+            let at_once = stereo != Stereo::Off && names.len() == whole.len();
+            assert_eq!(owned.image(image).eyes.is_some(), at_once, "{stereo:?}, `{name}`: {tree}");
+        }
+        assert_eq!(transfers(&owned).len(), names.len() / 2 * 3, "{stereo:?}: {tree}");
+        assert_eq!(verify(&owned), [], "{stereo:?}: {tree}");
+        let mut told = plan(stereo, ["", ""]);
+        for name in names {
+            let owner = if name.starts_with("camera") { OutsideOwner::Foreign } else { OutsideOwner::External };
+            told.set_owner(resource(&told, name), Some(owner)).expect("it is external");
+        }
+        assert_eq!(told, owned, "{stereo:?}");
+    }
 }

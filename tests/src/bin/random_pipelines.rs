@@ -2,9 +2,10 @@
 
 use clap::{Parser, ValueEnum};
 use framewright_graph::compile::Order;
+use framewright_graph::frame::Stereo;
 use framewright_graph::vulkan::Sharing;
 use framewright_tests::drivers::Driver;
-use framewright_tests::random_pipelines::allowed::Allowed;
+use framewright_tests::random_pipelines::allowed::{Allowed, Kind, NOT_YET};
 use framewright_tests::random_pipelines::judge::{Fault, Judge, expected, frames, options};
 use framewright_tests::random_pipelines::pipeline::Pipeline;
 use framewright_tests::random_pipelines::spoil::Spoil;
@@ -34,6 +35,9 @@ struct Line {
     /// Compile for three queues, however many the driver has: `shared` between them, or `handed-over` from one to another.
     #[arg(long, value_enum)]
     queues: Option<ThreeQueues>,
+    /// Draw for two eyes so, which see the same: pipelines without buffers, which both would share.
+    #[arg(long, value_parser = stereo)]
+    stereo: Option<Stereo>,
     /// Most passes of a pipeline.
     #[arg(long, default_value_t = 24, value_name = "MAX", value_parser = clap::value_parser!(u32).range(1..=200))]
     passes: u32,
@@ -69,6 +73,10 @@ fn spoiled(name: &str) -> Result<Spoil, String> {
         Spoil::Pass,
     ];
     all.into_iter().find(|spoil| format!("{spoil:?}") == name).ok_or_else(|| format!("nothing is called {name}"))
+}
+
+fn stereo(name: &str) -> Result<Stereo, String> {
+    Stereo::ALL.into_iter().find(|stereo| stereo.name() == name).ok_or_else(|| format!("nothing is called {name}"))
 }
 
 const EXIT_CODES: &str = "Exit codes:
@@ -217,6 +225,13 @@ fn here(line: &Line, notes: &Path) -> Result<u8, Box<dyn Error>> {
         Some(queues) => judge.with_three_queues(queues.sharing()),
         None => judge,
     };
+    let allowed = match line.stereo {
+        None => Allowed::today(),
+        Some(stereo) => {
+            judge = judge.for_two_eyes(stereo)?;
+            Allowed::without(&[NOT_YET, &[Kind::Buffers]].concat())
+        }
+    };
     judge.spoil = line.spoil;
     let driver = line.driver.map_or("?", Driver::name);
     let orders = line.order.map_or(ChosenOrder::ALL.to_vec(), |order| vec![order]);
@@ -228,7 +243,7 @@ fn here(line: &Line, notes: &Path) -> Result<u8, Box<dyn Error>> {
         if ASKED_TO_STOP.load(Ordering::Relaxed) || failures == line.failures {
             break;
         }
-        let pipeline = generate::pipeline(seed, passes(seed, line.passes), &Allowed::today());
+        let pipeline = generate::pipeline(seed, passes(seed, line.passes), &allowed);
         bar.set_message(format!("seed {seed}, {} passes", pipeline.passes.len()));
         if line.show {
             bar.suspend(|| println!("seed {seed}:\n{pipeline}"));
@@ -295,8 +310,9 @@ fn smaller(
 fn replay(line: &Line, seed: u64, driver: &str, order: ChosenOrder) -> String {
     let frames = line.frames.map_or(String::new(), |frames| format!(" --frames {frames}"));
     let queues = line.queues.map_or(String::new(), |queues| format!(" --queues {}", queues.name()));
+    let stereo = line.stereo.map_or(String::new(), |stereo| format!(" --stereo {}", stereo.name()));
     format!(
-        "cargo run -p framewright-tests --bin random_pipelines -- --seed {seed} --count 1 --passes {}{frames}{queues} \
+        "cargo run -p framewright-tests --bin random_pipelines -- --seed {seed} --count 1 --passes {}{frames}{queues}{stereo} \
          --driver {driver} --order {}",
         line.passes,
         order.name()

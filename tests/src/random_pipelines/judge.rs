@@ -10,7 +10,7 @@ use framewright_graph::base::{self, Diagnostic, Root, Sources};
 use framewright_graph::compile::{Options, Order, compile};
 use framewright_graph::device::{Profile, Queues};
 use framewright_graph::expand::{self, Inputs};
-use framewright_graph::frame::{self, Frame, Stereo};
+use framewright_graph::frame::{self, Eye, Frame, Stereo};
 use framewright_graph::language::{self, Facts};
 use framewright_graph::plan::{Plan, Resource};
 use framewright_graph::verify::verify;
@@ -24,6 +24,8 @@ use framewright_vulkan::{
 use std::any::Any;
 use std::collections::HashSet;
 use std::fmt;
+use std::iter::Peekable;
+use std::ops::Range;
 use std::panic::AssertUnwindSafe;
 use std::path::Path;
 use std::sync::Arc;
@@ -39,6 +41,8 @@ pub struct Judge {
     findings: usize,
     /// The change that spoils Plans before they are executed, to see that it is noticed.
     pub spoil: Option<Spoil>,
+    /// How two eyes are drawn for, which see the same in images of their own.
+    stereo: Stereo,
 }
 
 /// A mistake on the way from a pipeline to its outputs.
@@ -138,7 +142,17 @@ impl Judge {
             known: HashSet::new(),
             findings: 0,
             spoil: None,
+            stereo: Stereo::Off,
         })
+    }
+
+    /// Has pipelines drawn for two eyes: each image is there for each eye, in the form that the mode and the device have for it.
+    ///
+    /// # Errors
+    /// What the device lacks, in words.
+    pub fn for_two_eyes(mut self, stereo: Stereo) -> Result<Judge, String> {
+        self.stereo = stereo;
+        stereo.lacks(&self.profile).map_or(Ok(self), Err)
     }
 
     /// Has Plans made for a device with three queues, which share images or hand them over. They run on the queues that there are.
@@ -173,6 +187,10 @@ impl Judge {
         if findings.is_empty() { outcome } else { Err(Fault::Findings(findings)) }
     }
 
+    fn text(&self, pipeline: &Pipeline) -> String {
+        to_ron::to_ron(pipeline, self.stereo != Stereo::Off)
+    }
+
     /// The frame of a pipeline, out of a pipeline file and its shaders.
     ///
     /// # Errors
@@ -180,7 +198,7 @@ impl Judge {
     pub fn frame(&mut self, pipeline: &Pipeline) -> Result<Frame, Fault> {
         self.write_shaders(pipeline).map_err(|error| Fault::NotExecuted(error.to_string()))?;
         let mut sources = Sources::default();
-        let read = language::read(&mut sources, "random.ron", "random.ron", to_ron::to_ron(pipeline));
+        let read = language::read(&mut sources, "random.ron", "random.ron", self.text(pipeline));
         let sources = Arc::new(sources);
         let refused = |mistakes: Vec<Diagnostic>| Fault::Refused(vec![base::render(&sources, &mistakes)]);
         let described = read.map_err(refused)?;
@@ -191,8 +209,8 @@ impl Judge {
             output_extent: [1, 1],
             rotation: Rotation::Identity,
             dump: &[],
-            device: None,
-            stereo: Stereo::Off,
+            device: (self.stereo != Stereo::Off).then_some(&self.profile),
+            stereo: self.stereo,
             window: None,
         };
         expand::expand(&described, sources.clone(), &inputs, &mut self.shaders).map_err(refused)
@@ -226,7 +244,7 @@ impl Judge {
     /// If the folder or a file can't be written.
     pub fn write(&mut self, pipeline: &Pipeline, options: &Options, folder: &Path) -> std::io::Result<()> {
         std::fs::create_dir_all(folder)?;
-        std::fs::write(folder.join("random.ron"), to_ron::to_ron(pipeline))?;
+        std::fs::write(folder.join("random.ron"), self.text(pipeline))?;
         for shader in pipeline.passes.iter().filter_map(|pass| shader::shader(pipeline, pass)) {
             for (name, text) in shader.files {
                 std::fs::write(folder.join(name), text)?;
@@ -274,10 +292,12 @@ impl Judge {
             if timestamps {
                 executor.report(frame).map_err(broken)?;
             }
-            for (output, thing) in pipeline.outputs.iter().enumerate() {
-                let found = read(plan, &mut executor, output).map_err(broken)?;
-                if let Some(difference) = compare(pipeline, state, *thing, number, &found) {
-                    return Err(Fault::Difference(difference));
+            let mut outputs = (0..plan.outputs.len()).peekable();
+            for thing in &pipeline.outputs {
+                for found in self.read_each_eye(plan, &mut executor, &mut outputs).map_err(broken)? {
+                    if let Some(difference) = compare(pipeline, state, *thing, number, &found) {
+                        return Err(Fault::Difference(difference));
+                    }
                 }
             }
         }
@@ -285,12 +305,49 @@ impl Judge {
     }
 }
 
+impl Judge {
+    /// All bytes of the next output, as each eye has it: of two outputs, or of the layers of one.
+    fn read_each_eye(
+        &self,
+        plan: &Plan,
+        executor: &mut Executor,
+        outputs: &mut Peekable<Range<usize>>,
+    ) -> Result<Vec<Vec<u8>>, Error> {
+        let Some(at) = outputs.next() else { return Ok(vec![Vec::new()]) };
+        let first = read(plan, executor, at)?;
+        let holds_both = match plan.outputs[at].resource {
+            Resource::Image(image) => plan.image(image).eyes.is_some(),
+            Resource::Buffer(_) => false,
+        };
+        if holds_both {
+            let eye = |number: usize| {
+                let parts = first.iter().filter_map(|plane| plane.chunks(plane.len().div_ceil(2).max(1)).nth(number));
+                parts.collect::<Vec<_>>().concat()
+            };
+            return Ok(vec![eye(0), eye(1)]);
+        }
+        let other = outputs.next_if(|_| self.stereo != Stereo::Off);
+        let second = other.map(|at| read(plan, executor, at)).transpose()?;
+        Ok([first].into_iter().chain(second).map(|planes| planes.concat()).collect())
+    }
+}
+
+/// An image by its name in a Plan, as often as it is there for eyes, and how many copies of one eye's bytes each holds.
+fn held_as(plan: &Plan, name: &str) -> Vec<(String, usize)> {
+    let names = [name.to_owned()].into_iter().chain(Eye::BOTH.map(|eye| eye.named(name).to_string()));
+    // Images that no pass needs aren't in the Plan.
+    let held = names.filter_map(|name| {
+        let image = plan.images.iter().find(|planned| *planned.name == *name)?;
+        let copies = if image.eyes.is_some() { 2 } else { 1 };
+        Some((name, copies))
+    });
+    held.collect()
+}
+
 /// Gives a frame what is imported.
 fn hand_in(pipeline: &Pipeline, plan: &Plan, executor: &mut Executor, frame: u32) -> Result<(), Error> {
     for (number, image) in pipeline.images.iter().enumerate().filter(|(_, image)| image.life == Life::Imported) {
-        let name = format!("i{number}");
-        // Images that no pass needs aren't in the Plan.
-        if plan.images.iter().any(|planned| *planned.name == *name) {
+        for (name, copies) in held_as(plan, &format!("i{number}")) {
             let contents = imported_image(image, number, frame);
             for (mip, plane) in levels(image.mips, image.format) {
                 let texel = |at| texels::seen(image.format, plane, contents.texel(mip, at, 0).words);
@@ -298,7 +355,7 @@ fn hand_in(pipeline: &Pipeline, plan: &Plan, executor: &mut Executor, frame: u32
                     .map(texel)
                     .flat_map(|(format, words)| texels::bytes(format, words))
                     .collect();
-                executor.write_image(&name, plane.aspects(image.format), mip, &bytes)?;
+                executor.write_image(&name, plane.aspects(image.format), mip, &bytes.repeat(copies))?;
             }
         }
     }
@@ -313,18 +370,18 @@ fn hand_in(pipeline: &Pipeline, plan: &Plan, executor: &mut Executor, frame: u32
     Ok(())
 }
 
-/// All bytes of an output.
-fn read(plan: &Plan, executor: &mut Executor, output: usize) -> Result<Vec<u8>, Error> {
+/// All bytes of an output, plane by plane of each mip level.
+fn read(plan: &Plan, executor: &mut Executor, output: usize) -> Result<Vec<Vec<u8>>, Error> {
     match plan.outputs[output].resource {
         Resource::Image(id) => {
             let image = plan.image(id);
             let mut all = Vec::new();
             for (mip, plane) in levels(image.mips, image.format) {
-                all.extend(executor.read_image(&image.name, plane.aspects(image.format), mip)?.bytes);
+                all.push(executor.read_image(&image.name, plane.aspects(image.format), mip)?.bytes);
             }
             Ok(all)
         }
-        Resource::Buffer(id) => executor.read_buffer(&plan.buffers[id.0 as usize].name),
+        Resource::Buffer(id) => Ok(vec![executor.read_buffer(&plan.buffers[id.0 as usize].name)?]),
     }
 }
 
@@ -339,12 +396,17 @@ fn shown(message: &Message) -> String {
     format!("{}: {text}", message.id)
 }
 
+/// Whether a pass of a Plan is this one, for an eye or for both.
+fn is_named(pass: &Pass, name: &str) -> bool {
+    name.split(' ').next() == Some(&format!("p{}", pass.number))
+}
+
 /// The program around a random pipeline: it has no objects, and records custom passes.
 struct Program<'p>(&'p Pipeline);
 
 impl DrawSource for Program<'_> {
     fn record(&mut self, draw: frame::Draw, recorder: &mut Recorder<'_>) -> Result<u32, Error> {
-        let named = |pass: &&Pass| format!("p{}", pass.number) == recorder.pass();
+        let named = |pass: &&Pass| is_named(pass, recorder.pass());
         let work = self.0.passes.iter().find(named).map(|pass| &pass.work);
         let Some(Work::Draw(Draw { geometry: Geometry::Triangles { count, .. }, custom: true, .. })) = work else {
             return Err(Error::DrawSource { what: format!("`{}` draws {draw:?}", recorder.pass()) });
@@ -356,7 +418,7 @@ impl DrawSource for Program<'_> {
     }
 
     fn custom(&mut self, _: &str, recorder: &mut CustomRecorder<'_>) -> Result<(), Error> {
-        let named = |pass: &&Pass| format!("p{}", pass.number) == recorder.pass();
+        let named = |pass: &&Pass| is_named(pass, recorder.pass());
         let Some(Pass { work: Work::Custom { to, value, .. }, .. }) = self.0.passes.iter().find(named) else {
             return Err(Error::DrawSource { what: format!("`{}` is no custom pass", recorder.pass()) });
         };

@@ -3,7 +3,7 @@
 use super::pipeline::{
     Count, DepthTarget, Geometry, Groups, Life, Part, Pass, Pipeline, Plane, Read, Region, StoreAccess, Thing, Work,
 };
-use super::valid;
+use super::{to_frame, valid};
 use framewright_graph::frame::{Blend, StencilState};
 use framewright_graph::vulkan::{ColorComponents, Shape, name_of};
 use std::fmt;
@@ -29,12 +29,13 @@ impl fmt::Display for Pipeline {
             if let Some(mode) = image.resolve {
                 write!(f, ", resolved by {mode:?}")?;
             }
-            writeln!(f, "{}", image.life)?;
+            writeln!(f, "{}{}", image.life, owned(image.life, number))?;
         }
         for (number, buffer) in
             self.buffers.iter().enumerate().filter(|(number, _)| used.contains(&Thing::Buffer(*number)))
         {
-            writeln!(f, "buffer b{number}: {} words, {:?}{}", buffer.words, buffer.contents, buffer.life)?;
+            let owned = owned(buffer.life, number);
+            writeln!(f, "buffer b{number}: {} words, {:?}{}{owned}", buffer.words, buffer.contents, buffer.life)?;
         }
         self.passes.iter().try_for_each(|pass| writeln!(f, "{pass}"))?;
         let outputs: Vec<String> = self.outputs.iter().map(ToString::to_string).collect();
@@ -51,6 +52,11 @@ impl Pipeline {
         used.dedup();
         used
     }
+}
+
+/// What is said of an outside owner.
+fn owned(life: Life, number: usize) -> String {
+    to_frame::owner(life, number).map_or(String::new(), |owner| format!(", {} has it between frames", owner.words()))
 }
 
 impl fmt::Display for Life {
@@ -199,6 +205,9 @@ impl fmt::Display for Pass {
                 StoreAccess::Add => "adds to",
             };
             write!(f, ", {how} {}", store.region)?;
+        }
+        if to_frame::both_eyes(self) {
+            write!(f, ", for both eyes at once")?;
         }
         if self.side_effect { write!(f, ", has side effects") } else { Ok(()) }
     }

@@ -8,7 +8,9 @@ use super::{shader, texels, valid};
 use crate::parts;
 use framewright_graph::base::Span;
 use framewright_graph::frame::{self, BufferIndex, BufferRole, BufferUse, Face, Frame, ImageIndex, Lifetime, Resource};
-use framewright_graph::vulkan::{Accesses, FillValue, Filter, Format, Layout, Stages, State, Subresources};
+use framewright_graph::vulkan::{
+    Accesses, FillValue, Filter, Format, Layout, OutsideOwner, Stages, State, Subresources,
+};
 
 /// The frame that `pipeline` says.
 #[must_use]
@@ -25,7 +27,7 @@ pub fn to_frame(pipeline: &Pipeline) -> Frame {
             resolve: image
                 .resolve
                 .map(|mode| frame::Resolve { way: frame::ResolveWay::By(mode), because: "it says so".into() }),
-            lifetime: lifetime(image.life, handed_in(number), |value| texels::fill(image.format, value)),
+            lifetime: lifetime((image.life, number), handed_in(number), |value| texels::fill(image.format, value)),
             ..frame::Image::new(&format!("i{number}"), image.format, width, height)
         });
     }
@@ -34,7 +36,9 @@ pub fn to_frame(pipeline: &Pipeline) -> Frame {
             name: format!("b{number}").into(),
             span: Span::NONE,
             bytes: 4 * u64::from(buffer.words),
-            lifetime: lifetime(buffer.life, Layout::Undefined, |value| FillValue::Bits([value.into(), 0, 0, 0])),
+            lifetime: lifetime((buffer.life, number), Layout::Undefined, |value| {
+                FillValue::Bits([value.into(), 0, 0, 0])
+            }),
         });
     }
     frame.passes = pipeline.passes.iter().map(|pass| to_pass(pipeline, pass)).collect();
@@ -48,6 +52,25 @@ pub fn to_frame(pipeline: &Pipeline) -> Frame {
 /// The layout in which an imported image is handed in.
 pub(super) const fn handed_in(image: usize) -> Layout {
     if image.is_multiple_of(2) { Layout::TransferDstOptimal } else { Layout::General }
+}
+
+/// Who else has an image or buffer between frames, as the pipeline says: of every third one that is imported.
+pub(super) const fn owner(life: Life, number: usize) -> Option<OutsideOwner> {
+    match life {
+        Life::Imported | Life::Target if number % 3 == 1 => Some(OutsideOwner::External),
+        Life::Transient | Life::Persistent(_) | Life::History(..) | Life::Imported | Life::Target => None,
+    }
+}
+
+/// Whether the pipeline says of a pass that the program records it for both eyes at once: of every other one. It means nothing where one
+/// eye is drawn for, so the frame that this module makes doesn't say it.
+pub(super) const fn both_eyes(pass: &Pass) -> bool {
+    let custom = match &pass.work {
+        Work::Draw(draw) => draw.custom,
+        Work::Custom { .. } => true,
+        Work::Compute(_) | Work::Copy { .. } | Work::Blit { .. } | Work::Fill { .. } | Work::Forward { .. } => false,
+    };
+    custom && pass.number.is_multiple_of(2)
 }
 
 /// The state in which an output is asked for, if the pipeline says so: of every other one that lives no longer than it.
@@ -78,7 +101,7 @@ fn resource(thing: Thing) -> Resource {
     }
 }
 
-fn lifetime(life: Life, layout: Layout, initial: impl Fn(u8) -> FillValue) -> Lifetime {
+fn lifetime((life, number): (Life, usize), layout: Layout, initial: impl Fn(u8) -> FillValue) -> Lifetime {
     match life {
         Life::Transient => Lifetime::Transient,
         Life::Persistent(value) => Lifetime::Persistent { initial: initial(value) },
@@ -86,11 +109,11 @@ fn lifetime(life: Life, layout: Layout, initial: impl Fn(u8) -> FillValue) -> Li
         Life::Imported => {
             // As the program's own commands leave it.
             let before = State { stages: Stages::COPY, accesses: Accesses::TRANSFER_WRITE, layout };
-            Lifetime::Imported { before, after: None, owner: None }
+            Lifetime::Imported { before, after: None, owner: owner(life, number) }
         }
         Life::Target => {
             let before = State { stages: Stages::COPY, accesses: Accesses::empty(), layout: Layout::Undefined };
-            Lifetime::Imported { before, after: None, owner: None }
+            Lifetime::Imported { before, after: None, owner: owner(life, number) }
         }
     }
 }

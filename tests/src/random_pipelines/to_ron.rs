@@ -6,14 +6,18 @@ use super::pipeline::{
 };
 use super::{shader, texels, to_frame, valid};
 use framewright_graph::frame::{ParamValue, StencilState};
-use framewright_graph::vulkan::{Aspects, ColorComponents, FillValue, Format, Layout, ResolveMode, Shape, Stages};
+use framewright_graph::vulkan::{
+    Aspects, ColorComponents, FillValue, Format, Layout, OutsideOwner, ResolveMode, Shape, Stages,
+};
 
-/// The pipeline file that says what `pipeline` says. Its shaders are those of [`shader::shader`].
+/// The pipeline file that says what `pipeline` says. Its shaders are those of [`shader::shader`]. `per_eye`: each eye has images of its
+/// own, which hold the same.
 #[must_use]
-pub fn to_ron(pipeline: &Pipeline) -> String {
-    let images = pipeline.images.iter().enumerate().map(|(number, image)| image_text(number, image));
+pub fn to_ron(pipeline: &Pipeline, per_eye: bool) -> String {
+    let eyes = if per_eye { ", per_eye: true" } else { "" };
+    let images = pipeline.images.iter().enumerate().map(|(number, image)| image_text(number, image, eyes));
     let buffers = pipeline.buffers.iter().enumerate().map(|(number, buffer)| {
-        let lifetime = life(buffer.life, "", |value| value.to_string());
+        let lifetime = life((buffer.life, number), "", |value| value.to_string());
         format!("(name: \"b{number}\", bytes: {}{lifetime})", 4 * buffer.words)
     });
     let passes = pipeline.passes.iter().map(|pass| pass_text(pipeline, pass));
@@ -38,7 +42,7 @@ fn output_text(pipeline: &Pipeline, output: Thing) -> String {
     format!("({field}: \"{output}\", after: {after})")
 }
 
-fn image_text(number: usize, image: &Image) -> String {
+fn image_text(number: usize, image: &Image, eyes: &str) -> String {
     let [width, height, depth] = image.extent;
     let mut text = format!("(name: \"i{number}\", format: {}, size: Fixed({width}, {height})", image.format);
     match image.shape {
@@ -63,19 +67,25 @@ fn image_text(number: usize, image: &Image) -> String {
         Layout::General => ", layout: GENERAL",
         _ => ", layout: TRANSFER_DST_OPTIMAL",
     };
-    text + &life(image.life, layout, |value| fill(texels::fill(image.format, value), image.format)) + ")"
+    let initial = |value| fill(texels::fill(image.format, value), image.format);
+    text + eyes + &life((image.life, number), layout, initial) + ")"
 }
 
-fn life(life: Life, layout: &str, initial: impl Fn(u8) -> String) -> String {
+fn life((life, number): (Life, usize), layout: &str, initial: impl Fn(u8) -> String) -> String {
+    let owner = match to_frame::owner(life, number) {
+        None => "",
+        Some(OutsideOwner::External) => ", owner: External",
+        Some(OutsideOwner::Foreign) => ", owner: Foreign",
+    };
     match life {
         Life::Transient => String::new(),
         Life::Persistent(value) => format!(", lifetime: Persistent(initial: {})", initial(value)),
         Life::History(frames, value) => {
             format!(", lifetime: History(frames: {frames}, initial: {})", initial(value))
         }
-        Life::Target => ", lifetime: Imported(before: Undefined)".to_owned(),
+        Life::Target => format!(", lifetime: Imported(before: Undefined{owner})"),
         Life::Imported => {
-            format!(", lifetime: Imported(before: (stages: [COPY], accesses: [TRANSFER_WRITE]{layout}))")
+            format!(", lifetime: Imported(before: (stages: [COPY], accesses: [TRANSFER_WRITE]{layout}){owner})")
         }
     }
 }
@@ -160,6 +170,9 @@ fn pass_text(pipeline: &Pipeline, pass: &Pass) -> String {
         }
     }
     bindings(pass, &mut fields);
+    if to_frame::both_eyes(pass) {
+        fields.push("both_eyes: true".to_owned());
+    }
     if pass.side_effect {
         fields.push("side_effect: true".to_owned());
     }

@@ -160,6 +160,9 @@ fn every_kind_of_pass_and_resource_turns_up() {
         "frames ago to",
         "custom copy",
         "custom fill",
+        "imported, its external owner has it between frames",
+        "without contents, its external owner has it between frames",
+        "for both eyes at once",
         "outputs: b",
     ] {
         assert!(text.contains(word), "no {word}");
@@ -311,6 +314,53 @@ fn plans_for_three_queues_draw_the_same_on_the_one_that_there_is() {
             agree_by(driver, seeds, &["--passes", "24", "--queues", queues]);
         }
     }
+}
+
+/// ST-2, ST-4: eyes that see the same see what one sees, in whatever form their images are. Halves would take shaders that know of them.
+#[test]
+fn two_eyes_that_see_the_same_see_bit_for_bit_what_random_pipelines_mean() {
+    for (stereo, first) in [("multi-pass", 5001), ("instanced", 6001), ("multiview", 7001)] {
+        for driver in Driver::SOFTWARE {
+            if stereo == "instanced" && driver == Driver::SwiftShader {
+                // Its vertex shaders choose no layer.
+                continue;
+            }
+            let seeds = sweep::row(&format!("pipelines by {stereo} on {}", driver.name()), first..first + 100, 10);
+            agree_by(driver, seeds, &["--passes", "24", "--stereo", stereo]);
+        }
+    }
+}
+
+/// An owner that the program tells makes the Plan that is compiled with it.
+#[test]
+fn do_11_owners_that_are_told_make_the_plans_of_random_pipelines() {
+    let device = device();
+    let (mut told, mut transfers) = (0, 0);
+    for pipeline in many() {
+        let options = options(Order::Default, 0);
+        let planned = |frame: &frame::Frame| {
+            compile(frame, &device, &mut MemoryEstimate(&device), &options).expect("it is valid")
+        };
+        let owned = to_frame(&pipeline);
+        let mut plain = owned.clone();
+        let images = plain.images.iter_mut().map(|image| &mut image.lifetime);
+        for lifetime in images.chain(plain.buffers.iter_mut().map(|buffer| &mut buffer.lifetime)) {
+            if let frame::Lifetime::Imported { owner, .. } = lifetime {
+                *owner = None;
+            }
+        }
+        let (owned, mut plan) = (planned(&owned), planned(&plain));
+        assert_eq!(verify(&owned), [], "{pipeline}");
+        let images = owned.images.iter().map(|image| (plan::Resource::Image(image.id), image.role.owner()));
+        let buffers = owned.buffers.iter().map(|it| (plan::Resource::Buffer(it.id), it.role.owner()));
+        for (resource, owner) in images.chain(buffers).filter(|(_, owner)| owner.is_some()) {
+            plan.set_owner(resource, owner).expect("one queue uses it");
+            told += 1;
+        }
+        transfers += owned.steps.iter().map(|step| step.outside.len()).sum::<usize>();
+        assert_eq!(plan, owned, "{pipeline}");
+    }
+    assert!(told > 100 && transfers > told, "{told} owners, {transfers} transfers");
 }
 
 #[test]

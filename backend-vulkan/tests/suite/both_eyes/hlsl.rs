@@ -85,6 +85,30 @@ fn what_is_the_same_for_both_eyes_cant_follow_from_the_eye() {
 }
 
 #[test]
+fn a_stage_that_chooses_its_layer_is_refused_where_the_eye_chooses_it() {
+    let text = "struct Corner { float4 position : SV_Position; uint layer : SV_RenderTargetArrayIndex; };
+Corner VSMain(uint vertex : SV_VertexID) {
+    Corner it;
+    it.position = float4(float2((vertex << 1) & 2, vertex & 2) * 2.0 - 1.0, 0.0, 1.0);
+    it.layer = 1;
+    return it;
+}
+float4 PSMain() : SV_Target0 { return float4(1.0, 1.0, 1.0, 1.0); }\n";
+    let files = Files::of(&[("test.hlsl", text)]);
+    for way in WAYS {
+        let name = "vertex test.hlsl:VSMain, fragment test.hlsl:PSMain";
+        let compiled = files.library().compiled(name, Draw::FullScreen, &both(way, &[]));
+        let what = match compiled {
+            Err(ShaderProblem::Unsupported { what }) => what,
+            Err(problem) => panic!("{way:?}: {problem:?}"),
+            Ok(_) => String::new(),
+        };
+        let refused = what.contains("it chooses its layer, and so does a draw for both eyes");
+        assert_eq!(refused, way == (EyeSource::InstanceParity, EyeForm::Layers), "{way:?}: {what}");
+    }
+}
+
+#[test]
 fn glsl_is_told_by_the_index_of_a_view_in_each_way_too() {
     let head = "#version 460\n#extension GL_EXT_multiview : require\n";
     let declared = "layout(location = 0) in vec2 uv;\nlayout(location = 0) out vec4 color;\n";

@@ -44,4 +44,10 @@ room! {
     ///
     /// Only the compiler turns images. Set the rotation of an output.
     TURNED_IMAGE = 1208,
+
+    /// A pass of a frame says `both_eyes`, and isn't recorded for both eyes.
+    ///
+    /// Only what the program records can say so: a draw into images that hold both eyes' parts, or commands outside of
+    /// rendering scopes that touch one. Leave it out elsewhere: other passes are for both eyes where their images are.
+    CLAIMS_BOTH_EYES = 1209,
 }

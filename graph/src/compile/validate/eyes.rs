@@ -40,14 +40,17 @@ pub(super) fn pass(frame: &Frame, pass: &Pass, errors: &mut Vec<Diagnostic>) {
     if let Some((image, _)) = target.filter(|_| pass.work.draws(Draw::is_custom) && !pass.both_eyes) {
         wrong(image, pass.span, "is recorded by a program that doesn't say `both_eyes`, and draws into");
     }
-    let (draws, own) = (pass.work.is_draw(), target.is_some() || pass.both_eyes);
+    // A draw is for whom its target is. Outside of rendering scopes the program says it.
+    let draws = pass.work.is_draw();
+    let recorded = pass.both_eyes && pass.is_custom() && !draws;
+    let own = target.is_some() || recorded;
     let dispatch = pass.work.groups().is_some();
     for storage in &pass.storage {
         let wrong_so = match (eyes(storage.image), storage.eye) {
             (None, None) => continue,
             (None, Some(_)) => "accesses one eye's layer of",
             (Some(EyeForm::Layers), Some(_)) if dispatch => continue,
-            (Some(_), _) if !draws && pass.both_eyes => continue,
+            (Some(_), _) if recorded => continue,
             (Some(_), _) => "accesses as storage",
         };
         wrong(storage.image, storage.span, wrong_so);
@@ -63,7 +66,7 @@ pub(super) fn pass(frame: &Frame, pass: &Pass, errors: &mut Vec<Diagnostic>) {
     };
     let all_alike = transfers().map(|(image, _)| eyes(image)).collect::<HashSet<_>>().len() < 2;
     let copied_whole = pass.work.is_copy() && all_alike && transfers().count() == 2;
-    let whole = copied_whole || pass.work.filled().is_some() || pass.both_eyes;
+    let whole = copied_whole || pass.work.filled().is_some() || recorded;
     for (image, span) in transfers().filter(|(image, _)| eyes(*image).is_some() && !whole) {
         wrong(image, span, "transfers");
     }
@@ -72,4 +75,34 @@ pub(super) fn pass(frame: &Frame, pass: &Pass, errors: &mut Vec<Diagnostic>) {
     {
         wrong(if eyes(from).is_some() { from } else { to }, pass.span, "forwards from or to");
     }
+    for sampled in pass.sampled.iter().filter(|it| it.eye.is_some() && eyes(it.image).is_none()) {
+        let name = &frame.images[sampled.image.0 as usize].name;
+        let what = format!("`{}` samples one eye's part of `{name}`, which holds one picture", pass.name);
+        errors.push(Diagnostic::new(Code::BOTH_EYES, sampled.span, what));
+    }
+    errors.extend(claim_problem(frame, pass).map(|what| {
+        Diagnostic::new(Code::CLAIMS_BOTH_EYES, pass.span, format!("`{}` says `both_eyes`, and {what}", pass.name))
+    }));
+}
+
+/// Why a pass can't say that the program records it for both eyes at once, if it says so.
+fn claim_problem(frame: &Frame, pass: &Pass) -> Option<&'static str> {
+    if !pass.both_eyes {
+        return None;
+    }
+    let eyes = |image: ImageIndex| frame.images[image.0 as usize].eyes.is_some();
+    if !pass.is_custom() {
+        return Some("no program records it");
+    }
+    if pass.work.is_draw() {
+        let of_both = pass.attachments().next().is_some_and(|(image, _)| eyes(image));
+        return (!of_both).then_some("draws into nothing that holds both eyes' parts");
+    }
+    let sampled = pass.sampled.iter().filter(|it| it.eye.is_none()).map(|it| it.image);
+    let transferred = pass.transfers.iter().filter_map(|it| match it.resource {
+        Resource::Image(image) => Some(image),
+        Resource::Buffer(_) => None,
+    });
+    let mut touched = sampled.chain(pass.storage.iter().map(|it| it.image)).chain(transferred);
+    (!touched.any(eyes)).then_some("touches nothing that holds both eyes' parts")
 }

@@ -63,7 +63,7 @@ pub(super) fn check(frame: &Frame) -> Result<(), Vec<Diagnostic>> {
             if has_compressed {
                 check.compressed();
             }
-            if has_eyes {
+            if has_eyes || pass.both_eyes {
                 eyes::pass(frame, pass, &mut errors);
             }
         }

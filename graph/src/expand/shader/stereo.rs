@@ -44,9 +44,13 @@ pub(in crate::expand) fn note_shared_matrix(
     let Some(block) = interface.sees_alike.first().filter(|_| own && is_for_each_eye(resources, pass)) else { return };
     let given = pass.uniform.iter().map(|it| &it.binding).chain(pass.storage.iter().map(|it| &it.binding));
     let span = given.into_iter().find(|name| *name.text == **block).map_or(pass.name.span, |name| name.span);
+    let language = pass.shader().and_then(|shader| FileLanguage::of_vertices(&shader.text));
+    let by_include = |ending: &str| {
+        format!("let the buffer hold a matrix for each, and choose by `eye_index` of `include/stereo{ending}`")
+    };
+    let help = help(language, by_include);
     let text = format!(
-        "draws for each eye by `{block}`, which holds a matrix and is the same for both eyes: they see no parallax; let the buffer hold \
-         a matrix for each, and choose by `eye_index` of `include/stereo.glsl`"
+        "draws for each eye by `{block}`, which holds a matrix and is the same for both eyes: they see no parallax; {help}"
     );
     remarks.push(Remark { kind: NoteKind::SeenAlike, subject: pass.name.text.clone(), span, text });
 }
@@ -57,4 +61,13 @@ fn is_for_each_eye(resources: &Resources<'_>, pass: &language::Pass) -> bool {
     let targets = pass.color.iter().map(|it| &it.part).chain(pass.depth.iter().map(|it| &it.part));
     let mut targets = targets.filter(|part| part.eye.is_none());
     targets.any(|part| sees || resources.image(part.image.index).is_some_and(|image| image.image.eyes.is_some()))
+}
+
+/// What a shader could do by a shipped file, of which the ending is told, or the way out in a language that includes none.
+fn help(language: Option<FileLanguage>, by_include: impl Fn(&str) -> String) -> String {
+    match language.map(FileLanguage::facts) {
+        None => by_include(".glsl"),
+        Some(LanguageFacts { includes: Some(ending), .. }) => by_include(ending),
+        Some(LanguageFacts { name, .. }) => format!("{name} isn't told of eyes: write the shader in GLSL or HLSL"),
+    }
 }

@@ -255,6 +255,18 @@ fn what_the_program_does_not_record_for_both_eyes_is_found() {
         assert!(outside_of_one.contains("and a pass accesses it as one"), "{stereo:?}: {outside_of_one}");
         let of_none = said(&|plan| custom(plan, &|pass| pass.accesses[0].eye = Some(Eye::Left)));
         assert!(of_none.contains("is recorded for both eyes, and touches nothing that holds"), "{stereo:?}: {of_none}");
+        let nothing = said(&|plan| {
+            plan.images.iter_mut().for_each(|image| image.eyes = None);
+        });
+        for expected in [
+            "`draw` is recorded for both eyes, and draws into nothing that",
+            "for both eyes, and touches nothing that holds",
+        ] {
+            assert!(nothing.contains(expected), "{stereo:?}: {nothing}");
+        }
+        let of_file = said(&|plan| scope(plan, "draw").passes[0].draw = Some(Draw::FullScreen));
+        let expected = "`draw` is recorded for both eyes, and by no program";
+        assert!(of_file.contains(expected), "{stereo:?}: {of_file}");
     }
 }
 
