@@ -349,14 +349,17 @@ pub(super) fn component_of(ty: &str) -> Component {
 
 /// A uniform block's members, and its size rounded up to 16 bytes as std140 does. Of a struct that is all of the block, they are those
 /// of the struct: so one compiler wraps what WGSL binds.
-fn block(module: &IndexedModule<'_>, structure: &Instruction) -> Block {
+pub(super) fn block(module: &IndexedModule<'_>, structure: &Instruction) -> Block {
     let inner = match &structure.operands[..] {
         [Operand::IdRef(only)] => module.global(*only).filter(|it| it.class.opcode == Op::TypeStruct),
         _ => None,
     };
     let structure = inner.unwrap_or(structure);
     let Some(structure_id) = structure.result_id else { return Block::default() };
-    Block { bytes: module.block_bytes(structure_id), members: members(module, structure, STRUCTURE_DEPTH, &mut { MOST_MEMBERS }) }
+    Block {
+        bytes: module.block_bytes(structure_id),
+        members: members(module, structure, STRUCTURE_DEPTH, &mut { MOST_MEMBERS }),
+    }
 }
 
 /// Structures within structures are looked into so deep, and so many members of a block are found: a module's may hold itself, and

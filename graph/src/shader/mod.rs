@@ -63,6 +63,9 @@ pub struct ShaderInterface {
     pub program: Vec<ProgramResource>,
     /// The blocks of push constants that its stages read, without those of the library's own.
     pub pushed: Vec<PushedBlock>,
+    /// Why push constants that became parameters aren't those that the draw brings, in words, where it brings any and the pass gives no
+    /// member of theirs.
+    pub pushed_misfits: Vec<String>,
     /// Vertex attributes that the vertex stage declares.
     pub vertex_inputs: Vec<VertexInput>,
     /// Colour outputs of the fragment stage.

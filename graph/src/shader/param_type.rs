@@ -235,12 +235,40 @@ mod tests {
 
     #[test]
     fn types_are_named_as_glsl_names_them() {
-        for name in
-            ["float", "int", "uint", "bool", "vec2", "ivec3", "uvec4", "bvec2", "mat2", "mat4", "mat2x3", "mat4x2", "float[9]", "mat2x3[1]"]
-        {
+        for name in [
+            "float",
+            "int",
+            "uint",
+            "bool",
+            "vec2",
+            "ivec3",
+            "uvec4",
+            "bvec2",
+            "mat2",
+            "mat4",
+            "mat2x3",
+            "mat4x2",
+            "float[9]",
+            "mat2x3[1]",
+        ] {
             assert_eq!(ty(name).to_string(), name);
         }
-        for name in ["vec5", "vec", "mat", "mat1", "mat2x", "vec4[2][3]", "float[0]", "float[]", "float]", "Light[2]", "double", "dvec2", "Light", ""] {
+        for name in [
+            "vec5",
+            "vec",
+            "mat",
+            "mat1",
+            "mat2x",
+            "vec4[2][3]",
+            "float[0]",
+            "float[]",
+            "float]",
+            "Light[2]",
+            "double",
+            "dvec2",
+            "Light",
+            "",
+        ] {
             assert_eq!(ParamType::of(name), None, "{name}");
         }
         assert_eq!(ty("int").form(), "…");

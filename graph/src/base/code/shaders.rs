@@ -192,4 +192,11 @@ room! {
     ///
     /// The message names the type that the shader declares: a `float[3]` takes three numbers, `[0.25, 0.5, 0.25]`.
     PARAM_LENGTH = 836,
+
+    /// A module's push constants are neither those of the draw nor parameters.
+    ///
+    /// Push constants of shaders in HLSL, Slang or SPIR-V are the draw's where the program brings the bytes of their members to the stage:
+    /// `DrawInterface::push_constants`, or `push_constants` in an interface file (`--interface`). Else they are parameters, and the pass
+    /// gives each member a value: `params: {"…": …}`.
+    PUSHED_UNFIT = 837,
 }

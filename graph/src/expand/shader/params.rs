@@ -1,10 +1,10 @@
 //! Parameters of a pass meet the members of its shader's block.
 
-use crate::base::{Code, Diagnostic, nearest, shown_number, suggestion};
+use crate::base::{Code, Diagnostic, OutsideChoice, nearest, shown_number, suggestion};
 use crate::frame::ParamValue;
 use crate::language;
 use crate::ron::Name;
-use crate::shader::{Block, PARAMS, PASS_SET, ParamMisfit, ParamType, ShaderInterface, ShaderName};
+use crate::shader::{Block, Member, PARAMS, PASS_SET, ParamMisfit, ParamType, ShaderInterface, ShaderName};
 use std::sync::Arc;
 
 /// What a type is that no pipeline file can give.
@@ -57,14 +57,23 @@ pub(in crate::expand) fn give(
                 let message = format!(
                     "parameter `{name}` of shader `{shader}` has the type `{}` and can't be {}{place}",
                     member.ty,
-                    shown(param)
+                    shown_as(param, &member.ty)
                 );
                 errors.push(Diagnostic { help, ..Diagnostic::new(code, param.value.span, message) });
             }
         }
     }
+    let is_given = |member: &Member| pass.params.iter().any(|param| *param.name.text == *member.name);
+    if let (Some(misfit), Some(member)) =
+        (interface.pushed_misfits.first(), members.iter().find(|member| !is_given(member)))
+    {
+        let (name, pass) = (&member.name, &pass.name.text);
+        let message = format!("shader `{shader}` reads {misfit}; as parameters, pass `{pass}` gives no `{name}`");
+        errors.push(Diagnostic::new(Code::PUSHED_UNFIT, *named, message).choice(OutsideChoice::DrawInterfaces));
+        return given;
+    }
     for member in &members {
-        if !misspelt.contains(&&*member.name) && pass.params.iter().all(|param| *param.name.text != *member.name) {
+        if !misspelt.contains(&&*member.name) && !is_given(member) {
             let (name, ty) = (&member.name, &member.ty);
             let message =
                 format!("shader `{shader}` needs the parameter `{name}`, which pass `{}` doesn't give", pass.name.text);
@@ -103,7 +112,18 @@ fn block(interface: &ShaderInterface) -> Option<&Block> {
 
 /// How a parameter's value is shown: "`3` (setting `steps`)".
 pub(super) fn shown(param: &language::Param) -> String {
-    let value = number(&param.value.value);
+    with_words(param, &number(&param.value.value))
+}
+
+/// The same for a parameter of this type: what is given as an array is shown as one.
+fn shown_as(param: &language::Param, ty: &str) -> String {
+    match &param.value.value {
+        ParamValue::List(values) if ty.ends_with(']') => with_words(param, &list(values, ["[", "]"])),
+        _ => shown(param),
+    }
+}
+
+fn with_words(param: &language::Param, value: &str) -> String {
     match &param.written {
         Some(written) => format!("`{value}` ({written})"),
         None => format!("`{value}`"),
@@ -115,13 +135,15 @@ fn number(value: &ParamValue) -> String {
     match value {
         ParamValue::Bool(_) | ParamValue::Integer(_) | ParamValue::OfFrame(_) => value.to_string(),
         ParamValue::Number(value) => shown_number(*value),
-        ParamValue::List(values) => {
-            let [open, close] = ParamValue::brackets(values);
-            let shown: Vec<String> = values.iter().take(SHOWN_ELEMENTS).map(number).collect();
-            let more = if values.len() > shown.len() { ", …" } else { "" };
-            format!("{open}{}{more}{close}", shown.join(", "))
-        }
+        ParamValue::List(values) => list(values, ParamValue::brackets(values)),
     }
+}
+
+/// The first values of a list, in these brackets.
+fn list(values: &[ParamValue], [open, close]: [&str; 2]) -> String {
+    let shown: Vec<String> = values.iter().take(SHOWN_ELEMENTS).map(number).collect();
+    let more = if values.len() > shown.len() { ", …" } else { "" };
+    format!("{open}{}{more}{close}", shown.join(", "))
 }
 
 /// The value as the member's type has it; else the code, what doesn't fit, and a help.
