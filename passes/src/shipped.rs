@@ -81,6 +81,7 @@ pub const SHADERS: ShippedFiles = carried!(
     "include/surface.glsl",
     "include/temporal.glsl",
     "include/texture.glsl",
+    "include/texture.hlsl",
     "include/tone_mapping.glsl",
     "include/weighted_resolve.glsl",
     "lit.frag",

@@ -9,11 +9,12 @@ use framewright_graph::shader::{Block, MatrixLayout, Member, PARAMS, ParamScalar
 /// # Errors
 /// In words: a member without value, a value without member, or one that the member's type can't hold.
 pub(crate) fn fill(block: &Block, params: &[plan::Param]) -> Result<Vec<u8>, String> {
-    if let Some(surplus) = params.iter().find(|param| block.members.iter().all(|it| *it.name != *param.name)) {
+    let members = block.parameters();
+    if let Some(surplus) = params.iter().find(|param| members.iter().all(|it| *it.name != *param.name)) {
         return Err(format!("the block `{PARAMS}` has no member `{}`", surplus.name));
     }
     let mut bytes = vec![0; block.bytes.max(16) as usize];
-    for member in &block.members {
+    for member in &members {
         let param = params.iter().find(|it| *it.name == *member.name);
         let param = param.ok_or_else(|| format!("`{}` of the block `{PARAMS}` has no value", member.name))?;
         write(&mut bytes, member, &param.value)?;
@@ -24,7 +25,7 @@ pub(crate) fn fill(block: &Block, params: &[plan::Param]) -> Result<Vec<u8>, Str
 /// The values of a block that each frame has its own of, and where they lie in it. The block was filled with these parameters.
 pub(crate) fn frame_values(block: &Block, params: &[plan::Param]) -> Vec<(usize, FrameValue)> {
     let mut found = Vec::new();
-    for member in &block.members {
+    for member in &block.parameters() {
         let given = params.iter().find(|it| *it.name == *member.name);
         let visited = given.map(|given| {
             for_each_component(member, &given.value, |place, _, component| {
@@ -61,15 +62,18 @@ fn for_each_component(
     value: &ParamValue,
     mut visit: impl FnMut(usize, ParamScalar, &ParamValue) -> Option<()>,
 ) -> Result<(), String> {
-    let Member { name, ty, offset, matrix } = member;
+    let Member { name, ty, offset, matrix, stride: array_stride, within: _ } = member;
     let misfit = || format!("`{name}` is a {ty}, and {value} is none");
     let known = ParamType::of(ty).ok_or_else(misfit)?;
     let MatrixLayout { stride, row_major } = matrix.unwrap_or(MatrixLayout { stride: 16, row_major: false });
-    for (column, components) in (0_u32..).zip(known.columns_of(value).ok_or_else(misfit)?) {
-        for (row, component) in (0_u32..).zip(components) {
-            let (line, at) = if row_major { (row, column) } else { (column, row) };
-            let place = offset.saturating_add(line.saturating_mul(stride)).saturating_add(4 * at) as usize;
-            visit(place, known.scalar, component).ok_or_else(misfit)?;
+    for (element, value) in (0_u32..).zip(known.elements_of(value).ok_or_else(misfit)?) {
+        let offset = offset.saturating_add(element.saturating_mul(array_stride.unwrap_or(16)));
+        for (column, components) in (0_u32..).zip(known.element().columns_of(value).ok_or_else(misfit)?) {
+            for (row, component) in (0_u32..).zip(components) {
+                let (line, at) = if row_major { (row, column) } else { (column, row) };
+                let place = offset.saturating_add(line.saturating_mul(stride)).saturating_add(4 * at) as usize;
+                visit(place, known.scalar, component).ok_or_else(misfit)?;
+            }
         }
     }
     Ok(())
@@ -114,7 +118,7 @@ mod tests {
     use super::*;
 
     fn member(name: &str, offset: u32, ty: &str) -> Member {
-        Member { name: name.to_owned(), offset, ty: ty.to_owned(), matrix: None }
+        Member { name: name.to_owned(), offset, ty: ty.to_owned(), ..Member::default() }
     }
 
     fn param(name: &str, value: ParamValue) -> plan::Param {
@@ -162,6 +166,32 @@ mod tests {
         assert_eq!(outside, Err("`m` lies outside its block".to_owned()));
         let short = fill(&Block { bytes: 64, members: vec![member("v", 0, "vec4")] }, &vector);
         assert!(short.is_err_and(|said| said.starts_with("`v` is a vec4, and (7, 8, 9) is none")));
+    }
+
+    #[test]
+    fn elements_of_arrays_lie_a_stride_apart_and_members_of_structures_behind_it() {
+        let floats = |member: Member, name: &str, value: ParamValue| -> Vec<f32> {
+            let block = Block { bytes: 64, members: vec![member] };
+            let bytes = fill(&block, &[param(name, value)]).expect("it fits");
+            bytes.as_chunks().0.iter().map(|word| f32::from_ne_bytes(*word)).collect()
+        };
+        let numbers = |numbers: &[i64]| ParamValue::list(numbers.iter().map(|number| ParamValue::Integer(*number)));
+        let array = |ty, stride, matrix| Member { stride: Some(stride), matrix, ..member("a", 4, ty) };
+        let std140 = floats(array("float[3]", 16, None), "a", numbers(&[7, 8, 9]));
+        assert_eq!(std140[..10], [0.0, 7.0, 0.0, 0.0, 0.0, 8.0, 0.0, 0.0, 0.0, 9.0]);
+        let scalar = floats(array("float[3]", 4, None), "a", numbers(&[7, 8, 9]));
+        assert_eq!(scalar[..5], [0.0, 7.0, 8.0, 9.0, 0.0]);
+        let pairs = ParamValue::list([numbers(&[1, 2]), numbers(&[3, 4])]);
+        assert_eq!(floats(array("vec2[2]", 12, None), "a", pairs.clone())[..6], [0.0, 1.0, 2.0, 0.0, 3.0, 4.0]);
+        let rows = Some(MatrixLayout { stride: 8, row_major: true });
+        let matrices = floats(array("mat2[2]", 20, rows), "a", ParamValue::list([pairs.clone(), pairs]));
+        assert_eq!(matrices[..10], [0.0, 1.0, 3.0, 2.0, 4.0, 0.0, 1.0, 3.0, 2.0, 4.0]);
+
+        let light = Member { within: vec![array("float[2]", 4, None)], ..member("light", 8, "Light") };
+        assert_eq!(floats(light.clone(), "light.a", numbers(&[5, 6]))[2..6], [0.0, 5.0, 6.0, 0.0]);
+        let block = Block { bytes: 64, members: vec![light] };
+        let seed = ParamValue::list([ParamValue::Integer(1), ParamValue::OfFrame(FrameValue::Time)]);
+        assert_eq!(frame_values(&block, &[param("light.a", seed)]), [(16, FrameValue::Time)]);
     }
 
     #[test]

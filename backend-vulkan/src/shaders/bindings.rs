@@ -353,25 +353,42 @@ pub(super) fn component_of(ty: &str) -> Component {
 
 /// A uniform block's members, and its size rounded up to 16 bytes as std140 does. Of a struct that is all of the block, they are those
 /// of the struct: so one compiler wraps what WGSL binds.
-fn block(module: &IndexedModule<'_>, structure: &Instruction) -> Block {
+pub(super) fn block(module: &IndexedModule<'_>, structure: &Instruction) -> Block {
     let inner = match &structure.operands[..] {
         [Operand::IdRef(only)] => module.global(*only).filter(|it| it.class.opcode == Op::TypeStruct),
         _ => None,
     };
     let structure = inner.unwrap_or(structure);
     let Some(structure_id) = structure.result_id else { return Block::default() };
-    let mut block = Block { bytes: module.block_bytes(structure_id), ..Block::default() };
+    Block {
+        bytes: module.block_bytes(structure_id),
+        members: members(module, structure, STRUCTURE_DEPTH, &mut { MOST_MEMBERS }),
+    }
+}
+
+/// Structures within structures are looked into so deep, and so many members of a block are found: a module's may hold itself, and
+/// may hold many of one that holds many.
+const STRUCTURE_DEPTH: u32 = 8;
+const MOST_MEMBERS: usize = 16 << 10;
+
+/// The members of a structure, and so deep those of structures in it. `left`: how many may be found.
+fn members(module: &IndexedModule<'_>, structure: &Instruction, depth: u32, left: &mut usize) -> Vec<Member> {
+    let Some(structure_id) = structure.result_id else { return Vec::new() };
+    let mut found = Vec::new();
     for (index, operand) in (0_u32..).zip(&structure.operands) {
         let Some(ty) = operand.id_ref_any() else { continue };
+        let Some(fewer) = left.checked_sub(1) else { break };
+        *left = fewer;
         let offset = module.member_decoration(structure_id, index, Decoration::Offset).flatten().and_then(number);
-        let offset = offset.unwrap_or(0);
-        let name = module.member_name(structure_id, index).to_owned();
-        block.members.push(Member {
-            name,
-            offset,
+        let inner = module.global(ty).filter(|it| depth > 0 && it.class.opcode == Op::TypeStruct);
+        found.push(Member {
+            name: module.member_name(structure_id, index).to_owned(),
+            offset: offset.unwrap_or(0),
             ty: module.type_name(ty),
             matrix: module.matrix_layout(structure_id, index),
+            stride: module.decoration_number(ty, Decoration::ArrayStride),
+            within: inner.map_or_else(Vec::new, |inner| members(module, inner, depth - 1, left)),
         });
     }
-    block
+    found
 }

@@ -2,6 +2,7 @@
 
 use super::module_file::ModuleFile;
 use super::program_supply::ProgramSupply;
+use super::push_constants::PushedBy;
 use super::reflect::{StageInterface, reflect};
 use super::validator::judge;
 use super::varyings::Varying;
@@ -54,14 +55,14 @@ fn entry_points(bytes: &[u8]) -> Vec<(String, ShaderStage)> {
 
 /// An entry point as a pass would have it.
 fn interface(module: &ModuleFile, stage: ShaderStage, entry: Option<&str>) -> Result<StageInterface, String> {
-    let spirv = module.cut("", stage, entry, &[]).map_err(|problem| match problem {
+    let cut = module.cut("", stage, entry, &[], &PushedBy::default()).map_err(|problem| match problem {
         ShaderProblem::BadModule { what } => what,
         other => format!("{other:?}"),
     })?;
     if let Verdict::Invalid(finding) = judge(&spirv) {
         return Err(format!("invalid: {}", finding.words));
     }
-    reflect(stage, &spirv, false, false, &ProgramSupply::default()).map_err(|refused| format!("{refused:?}"))
+    reflect(stage, &cut.spirv, false, false, &ProgramSupply::default()).map_err(|refused| format!("{refused:?}"))
 }
 
 /// A fact a line: what it is of, and what it is.

@@ -7,7 +7,8 @@ use super::eyes::{ASKING, EYE};
 use super::eyes_of_modules;
 use super::files::{ShaderFiles, SourceFile};
 use super::macros::{Macros, in_hlsl, is_of_glsl};
-use super::module_file::ModuleFile;
+use super::module_file::{CutModule, ModuleFile};
+use super::push_constants::PushedBy;
 use super::stage_sources::{StageCode, StageSource};
 use super::text;
 use super::view_semantics::placed;
@@ -27,6 +28,8 @@ pub(super) struct FileStage<'s> {
     pub(super) constants: &'s Constants,
     /// Whether it draws for both eyes at once.
     pub(super) both: bool,
+    /// Whose its push constants are.
+    pub(super) pushed: &'s PushedBy,
 }
 
 impl FileStage<'_> {
@@ -39,10 +42,10 @@ impl FileStage<'_> {
         source: &StageSource,
         compilers: &mut Compilers,
         files: &ShaderFiles,
-    ) -> Result<Vec<u32>, ShaderProblem> {
-        let FileStage { file, entry, stage, macros, constants, .. } = *self;
+    ) -> Result<CutModule, ShaderProblem> {
+        let FileStage { file, entry, stage, macros, constants, pushed, .. } = *self;
         let language = match &source.code {
-            StageCode::Module(module) => return module.cut(file, stage, entry, constants),
+            StageCode::Module(module) => return module.cut(file, stage, entry, constants, pushed),
             StageCode::Text(language) => *language,
             StageCode::Glsl => return Err(ShaderProblem::Unsupported { what: format!("{file}: it is GLSL") }),
         };
@@ -69,7 +72,7 @@ impl FileStage<'_> {
         }
         // Compilers that are told of one entry point may call it `main`.
         let renamed = compilers.is_told_entry(language) && module.only_entry(stage) == Some("main");
-        module.cut(file, stage, entry.filter(|_| !renamed), constants)
+        module.cut(file, stage, entry.filter(|_| !renamed), constants, pushed)
     }
 
     /// The text that is compiled. Where it asks for the eye of a draw for both, it begins with what stands for that.

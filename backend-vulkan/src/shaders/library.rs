@@ -12,8 +12,10 @@ use super::file_stages::FileStage;
 use super::files::{ShaderFiles, SourceFile};
 use super::layers;
 use super::macros::{Macros, both_eyes, in_layers, is_for_right_eye, macros, tells_parts};
+use super::module_file::CutModule;
 use super::needs::Needed;
 use super::program_supply::ProgramSupply;
+use super::push_constants::PushedBy;
 use super::reflect::reflect;
 use super::registers;
 use super::set_layouts::SetLayouts;
@@ -92,8 +94,10 @@ const VERTEX: ShaderStage = ShaderStage::Vertex;
 const FRAGMENT: ShaderStage = ShaderStage::Fragment;
 const COMPUTE: ShaderStage = ShaderStage::Compute;
 
-/// A stage by its name, its macros, how it draws for both eyes, what it samples in layers, and the values of its constants.
-type StageKey = (StageName, ShaderStage, Macros, Option<BothEyes>, Vec<String>, Vec<(Arc<str>, ConstantValue)>);
+/// A stage by its name, its macros, how it draws for both eyes, what it samples in layers, the values of its constants, and whose its push
+/// constants are.
+type StageKey = (StageName, ShaderStage, Macros, Option<BothEyes>, Vec<String>, ConstantValues, PushedBy);
+type ConstantValues = Vec<(Arc<str>, ConstantValue)>;
 
 /// A stage, `None` if it has no file.
 type StageResult = Result<Option<Arc<CompiledStage>>, ShaderProblem>;
@@ -170,12 +174,13 @@ impl ShaderLibrary {
     pub fn compiled(&mut self, name: &str, draw: Draw, variant: &Variant) -> Result<CompiledShader, ShaderProblem> {
         let shader = ShaderName::of_text(name);
         let main = shader.main();
-        let Some(fragment) = self.stage(main, FRAGMENT, variant)? else {
+        let pushed = PushedBy { draw: self.draws.pushed_for(draw), params: variant.given.params.clone() };
+        let Some(fragment) = self.stage(main, FRAGMENT, variant, &pushed)? else {
             return Err(self.sources.lacking(main, FRAGMENT));
         };
         // The same vertex stage, word for word: it must meet the same depth.
         let own = Variant { local: Vec::new(), depth_only: false, alpha_to_coverage: false, ..variant.clone() };
-        let (vertex, usual_vertices) = match self.own_vertex_stage(&shader, fragment.shipped, &own)? {
+        let (vertex, usual_vertices) = match self.own_vertex_stage(&shader, fragment.shipped, &own, &pushed)? {
             Some(own) => (own, false),
             None => {
                 let usual = self.usual_vertex_stage(main, draw, variant)?;
@@ -233,7 +238,7 @@ impl ShaderLibrary {
     /// [`ShaderProblem`] says whether it is missing, doesn't compile or can't be used.
     pub fn compute(&mut self, name: &str, variant: &Variant) -> Result<CompiledCompute, ShaderProblem> {
         let name = StageName::of_text(name);
-        let stage = self.stage(&name, COMPUTE, variant)?;
+        let stage = self.stage(&name, COMPUTE, variant, &PushedBy::default())?;
         let stage = stage.ok_or_else(|| self.sources.lacking(&name, COMPUTE))?;
         let mut interface = stage.reflected.interface.clone();
         if name.is_file() {
@@ -243,22 +248,28 @@ impl ShaderLibrary {
     }
 
     /// A shader's own vertex stage; `None`: the usual one of what is drawn goes with it.
-    fn own_vertex_stage(&mut self, shader: &ShaderName, shipped: bool, variant: &Variant) -> StageResult {
+    fn own_vertex_stage(
+        &mut self,
+        shader: &ShaderName,
+        shipped: bool,
+        variant: &Variant,
+        pushed: &PushedBy,
+    ) -> StageResult {
         match shader {
             ShaderName::Stages { vertex: None, .. } => Ok(None),
-            ShaderName::Stages { vertex: Some(vertex), .. } => match self.stage(vertex, VERTEX, variant)? {
+            ShaderName::Stages { vertex: Some(vertex), .. } => match self.stage(vertex, VERTEX, variant, pushed)? {
                 Some(stage) => Ok(Some(stage)),
                 None => Err(self.sources.lacking(vertex, VERTEX)),
             },
             // A shipped vertex shader goes with the shipped fragment shader only.
             ShaderName::Whole(name @ StageName::Glsl(_)) => {
-                Ok(self.stage(name, VERTEX, variant)?.filter(|own| own.shipped == shipped))
+                Ok(self.stage(name, VERTEX, variant, pushed)?.filter(|own| own.shipped == shipped))
             }
             ShaderName::Whole(StageName::File { file, .. }) => {
                 let source = self.sources.source(file)?;
                 let has = source.is_some_and(|it| matches!(&it.code, StageCode::Module(module) if module.has(VERTEX)));
                 match has {
-                    true => self.stage(&StageName::File { file: file.clone(), entry: None }, VERTEX, variant),
+                    true => self.stage(&StageName::File { file: file.clone(), entry: None }, VERTEX, variant, pushed),
                     false => Ok(None),
                 }
             }
@@ -284,7 +295,7 @@ impl ShaderLibrary {
         let usual = usual.to_string();
         let usual = StageName::Glsl(usual.strip_suffix(VERTEX.facts().ending).unwrap_or(&usual).into());
         let bare = Variant { eye: variant.eye, form: variant.form, ..Variant::default() };
-        let stage = self.stage(&usual, VERTEX, &bare)?;
+        let stage = self.stage(&usual, VERTEX, &bare, &PushedBy::default())?;
         stage.ok_or_else(|| ShaderProblem::Unsupported { what: what() })
     }
 
@@ -297,11 +308,14 @@ impl ShaderLibrary {
     }
 
     /// One stage by its name; `None` if there is no such file.
-    fn stage(&mut self, name: &StageName, stage: ShaderStage, variant: &Variant) -> StageResult {
+    fn stage(&mut self, name: &StageName, stage: ShaderStage, variant: &Variant, pushed: &PushedBy) -> StageResult {
         let Some(source) = self.sources.source(&file_of(name, stage))? else { return Ok(None) };
         let both = both_eyes(variant);
         let (macros, constants) = (macros(&source.mentioned, variant, stage), variant.constants.clone());
-        let key = (name.clone(), stage, macros, both, in_layers(variant, stage), constants);
+        // GLSL says by itself which push constants there are.
+        let decides = source.code.is_foreign() && !pushed.draw.is_empty();
+        let pushed = if decides { pushed.clone() } else { PushedBy::default() };
+        let key = (name.clone(), stage, macros, both, in_layers(variant, stage), constants, pushed);
         if let Some(known) = self.stages.get(&key) {
             return known.clone();
         }
@@ -310,17 +324,22 @@ impl ShaderLibrary {
         result
     }
 
-    /// The SPIR-V of a stage, of the file's or compiled.
-    fn spirv_of(&mut self, source: &StageSource, key: &StageKey) -> Result<CompilerAnswer, ShaderProblem> {
+    /// The SPIR-V of a stage, of the file's or compiled, and why its push constants aren't the draw's.
+    fn spirv_of(
+        &mut self,
+        source: &StageSource,
+        key: &StageKey,
+    ) -> Result<(CompilerAnswer, Vec<String>), ShaderProblem> {
         let StageSource { found, .. } = source;
-        let &(ref name, stage, ref macros, both, _, ref constants) = key;
+        let &(ref name, stage, ref macros, both, _, ref constants, ref pushed) = key;
         let (compilers, files, program) = (&mut self.compilers, &self.sources.files, &self.program);
         let unsupported = |refused: RefusedStage| ShaderProblem::Unsupported { what: refused.placed(files, found) };
         if let StageName::File { file, entry } = name {
-            let wanted = FileStage { file, entry: entry.as_deref(), stage, macros, constants, both: both.is_some() };
-            let spirv = wanted.compiled(source, compilers, files)?;
+            let entry = entry.as_deref();
+            let wanted = FileStage { file, entry, stage, macros, constants, both: both.is_some(), pushed };
+            let CutModule { spirv, pushed_misfits } = wanted.compiled(source, compilers, files)?;
             let verdict = judge(&spirv);
-            return Ok(CompilerAnswer { spirv, verdict });
+            return Ok((CompilerAnswer { spirv, verdict }, pushed_misfits));
         }
         let parts = tells_parts(macros);
         if both.is_some_and(BothEyes::cuts_at_seam)
@@ -345,17 +364,17 @@ impl ShaderLibrary {
             sized(files, found).map_err(unsupported)?;
         }
         if constants.is_empty() {
-            return Ok(answer);
+            return Ok((answer, Vec::new()));
         }
         let spirv = constants::with_values(answer.spirv, constants).map_err(|what| unsupported(what.into()))?;
         let verdict = judge(&spirv);
-        Ok(CompilerAnswer { spirv, verdict })
+        Ok((CompilerAnswer { spirv, verdict }, Vec::new()))
     }
 
     fn compile_stage(&mut self, source: &StageSource, key: &StageKey) -> StageResult {
-        let CompilerAnswer { spirv, verdict } = self.spirv_of(source, key)?;
+        let (CompilerAnswer { spirv, verdict }, pushed_misfits) = self.spirv_of(source, key)?;
         let StageSource { found, mentioned, code } = source;
-        let &(_, stage, ref macros, both, ref in_layers, _) = key;
+        let &(_, stage, ref macros, both, ref in_layers, ..) = key;
         let files = &self.sources.files;
         let unsupported = |refused: RefusedStage| ShaderProblem::Unsupported { what: refused.placed(files, found) };
         // A stranger's module is judged before anything is read off it.
@@ -376,6 +395,7 @@ impl ShaderLibrary {
         {
             return Err(ShaderProblem::Unsupported { what: invalid(finding, files, found) });
         }
+        reflected.interface.pushed_misfits = pushed_misfits;
         reflected.interface.needs = placed_needs(&reflected.needs, &verdict, files, found);
         let names: Vec<&str> = in_layers.iter().map(String::as_str).collect();
         let by_eye = |spirv: Vec<u32>| layers::by_eye(&spirv, &names).map_err(|what| unsupported(what.into()));

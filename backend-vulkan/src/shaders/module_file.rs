@@ -6,6 +6,7 @@
 use super::constants::Constants;
 use super::module::id;
 use super::module_lines::ModuleLines;
+use super::push_constants::PushedBy;
 use super::{constants, module_capabilities, module_checks, module_words, place_names, push_constants, registers};
 use crate::base::ShaderStage;
 use framewright_graph::shader::ShaderProblem;
@@ -20,6 +21,13 @@ pub(super) struct ModuleFile {
     module: Module,
     /// Entry points, by their functions, whose workgroups are sized by constants.
     sized_by: Vec<(u32, Vec<u32>)>,
+}
+
+/// The module of one entry point.
+pub(super) struct CutModule {
+    pub(super) spirv: Vec<u32>,
+    /// Why its push constants aren't those of the draw, in words.
+    pub(super) pushed_misfits: Vec<String>,
 }
 
 /// An entry point: its stage, its function and its name.
@@ -90,7 +98,7 @@ impl ModuleFile {
     }
 
     /// The module of one entry point: the one of this name, or else the only one of the stage. `file` is its file in messages. Its
-    /// specialization constants have these values.
+    /// specialization constants have these values. `pushed` decides whose its push constants are.
     ///
     /// # Errors
     /// [`ShaderProblem::EntryPoint`] if there is none such, or there are several; [`ShaderProblem::BadModule`] if it isn't whole.
@@ -100,7 +108,8 @@ impl ModuleFile {
         stage: ShaderStage,
         named: Option<&str>,
         values: &Constants,
-    ) -> Result<Vec<u32>, ShaderProblem> {
+        pushed: &PushedBy,
+    ) -> Result<CutModule, ShaderProblem> {
         let facts = stage.facts();
         let of_stage: Vec<EntryPoint<'_>> = self.entry_points().filter(|entry| entry.model == facts.model).collect();
         let mut wanted = of_stage.iter().filter(|entry| named.is_none_or(|named| entry.name == named));
@@ -124,9 +133,9 @@ impl ModuleFile {
         if self.module.entry_points.len() > 1 {
             module_capabilities::leave_out_foreign(&mut module);
         }
-        push_constants::as_params(&mut module);
+        let pushed_misfits = push_constants::as_params(&mut module, stage, pushed);
         place_names::add(&mut module);
-        Ok(module.assemble())
+        Ok(CutModule { spirv: module.assemble(), pushed_misfits })
     }
 
     /// Puts the constants' values in place of the size of workgroups.

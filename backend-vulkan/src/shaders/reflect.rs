@@ -89,6 +89,8 @@ pub(super) fn reflect(
         bindings,
         program,
         pushed: pushed(&module, stage, &used),
+        // The module was changed already.
+        pushed_misfits: Vec::new(),
         vertex_inputs: if vertex { vertex_inputs(&inputs)? } else { Vec::new() },
         outputs: if fragment { fragment_outputs(&module)? } else { Vec::new() },
         second_source: fragment && has_second_source(&module),

@@ -115,6 +115,7 @@ pub(super) fn join(vertex: &CompiledStage, fragment: &CompiledStage) -> Result<S
         }
     }
     joined.pushed.extend(vertex.reflected.interface.pushed.iter().cloned());
+    joined.pushed_misfits.extend(vertex.reflected.interface.pushed_misfits.iter().cloned());
     joined.unturned.extend(
         vertex.reflected.interface.unturned.iter().filter(|it| !fragment.reflected.interface.unturned.contains(it)),
     );

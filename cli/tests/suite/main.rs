@@ -43,6 +43,7 @@ mod merging;
 mod never_overwritten;
 mod outputs;
 mod page;
+mod params;
 mod pictures;
 mod plan_files;
 mod plans;

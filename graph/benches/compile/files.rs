@@ -108,7 +108,7 @@ impl ShaderInterfaces for FullScreen {
             separate: false,
             stages: Stages::FRAGMENT_SHADER,
         };
-        let member = Member { name: "gain".to_owned(), offset: 0, ty: "float".to_owned(), matrix: None };
+        let member = Member { name: "gain".to_owned(), ty: "float".to_owned(), ..Member::default() };
         let kind = BindingKind::UniformBlock(Block { bytes: 4, members: vec![member] });
         let params = Binding { binding: 1, name: "params".to_owned(), kind, ..source.clone() };
         let output = FragmentOutput { location: 0, name: "color".to_owned(), component, components: 4 };

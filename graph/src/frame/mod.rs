@@ -42,6 +42,7 @@ pub use indirect_draws::IndirectDraws;
 pub use jitter::{Jitter, LONGEST as LONGEST_JITTER};
 pub use note_kind::NoteKind;
 pub use output::Output;
+pub(crate) use param::PARAM_COMPONENTS;
 pub use param::{FrameValue, ParamValue};
 pub(crate) use part::{TargetShape, allocated_at};
 pub use pass::Pass;

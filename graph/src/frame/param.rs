@@ -2,7 +2,11 @@
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
+use std::ops::RangeInclusive;
 use std::sync::Arc;
+
+/// How many components vectors have, and columns matrices.
+pub(crate) const PARAM_COMPONENTS: RangeInclusive<usize> = 2..=4;
 
 /// A value that each frame has its own of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -45,7 +49,8 @@ pub enum ParamValue {
     Number(f64),
     /// What each frame has its own of, without another Plan.
     OfFrame(FrameValue),
-    /// The components of a vector, or the columns of a matrix, each a list of components.
+    /// The components of a vector, the columns of a matrix, each a list of components, or the elements of an array, each a value
+    /// of one of these.
     List(Arc<[ParamValue]>),
 }
 
@@ -54,6 +59,11 @@ impl ParamValue {
     #[must_use]
     pub fn list(values: impl IntoIterator<Item = ParamValue>) -> ParamValue {
         ParamValue::List(values.into_iter().collect())
+    }
+
+    /// The brackets around a list: those of an array where it is no vector and no matrix.
+    pub(crate) fn brackets(values: &[ParamValue]) -> [&'static str; 2] {
+        if PARAM_COMPONENTS.contains(&values.len()) { ["(", ")"] } else { ["[", "]"] }
     }
 
     /// Whether all its numbers are finite.
@@ -87,7 +97,7 @@ impl ParamValue {
     }
 }
 
-/// As pipeline files write it: `(1, 0.5, true)`.
+/// As pipeline files write it: `(1, 0.5, true)`, and `[…]` where only an array can be meant.
 impl fmt::Display for ParamValue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -96,14 +106,15 @@ impl fmt::Display for ParamValue {
             ParamValue::Number(value) => write!(f, "{value}"),
             ParamValue::OfFrame(value) => f.write_str(value.word()),
             ParamValue::List(values) => {
-                f.write_str("(")?;
+                let [open, close] = ParamValue::brackets(values);
+                f.write_str(open)?;
                 for (at, value) in values.iter().enumerate() {
                     if at > 0 {
                         f.write_str(", ")?;
                     }
                     write!(f, "{value}")?;
                 }
-                f.write_str(")")
+                f.write_str(close)
             }
         }
     }

@@ -1,6 +1,6 @@
 //! What a draw source brings along for every kind of draw, the sets that its program binds, and the custom passes that it records.
 
-use super::{DrawInterface, DrawKind, InterfaceOf, ProgramSet, interface_file};
+use super::{DrawInterface, DrawKind, InterfaceOf, ProgramSet, PushConstants, interface_file};
 use crate::base::{Diagnostic, Sources};
 use crate::frame::Draw;
 use std::collections::BTreeMap;
@@ -122,6 +122,16 @@ impl DrawInterfaces {
     #[must_use]
     pub fn push_constants(&self) -> bool {
         self.all_of_file().any(|(_, interface)| !interface.push_constants.is_empty())
+    }
+
+    /// The push constants that shaders of a draw may see: of a custom draw those of all custom passes.
+    #[must_use]
+    pub fn pushed_for(&self, draw: Draw) -> Vec<PushConstants> {
+        let mut pushed = self.of(draw).push_constants;
+        if draw.is_custom() {
+            pushed.extend(self.of_custom.values().flat_map(|it| &it.push_constants));
+        }
+        pushed
     }
 
     /// The sets that the program makes and binds itself, in the order of their numbers.

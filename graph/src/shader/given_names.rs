@@ -54,8 +54,10 @@ mod tests {
     use std::sync::Arc;
 
     fn block(binding: u32, name: &str) -> Binding {
-        let member =
-            |name: &str, offset| Member { name: name.to_owned(), offset, ty: "float".to_owned(), matrix: None };
+        let member = |name: &str, offset| {
+            let (name, ty) = (name.to_owned(), "float".to_owned());
+            Member { name, offset, ty, ..Member::default() }
+        };
         let kind = BindingKind::UniformBlock(Block { bytes: 16, members: vec![member("scale", 0), member("bias", 4)] });
         let (name, stages) = (name.to_owned(), Stages::COMPUTE_SHADER);
         Binding { set: PASS_SET, binding, name, kind, length: None, adapts: false, separate: false, stages }

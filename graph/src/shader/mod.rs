@@ -64,6 +64,9 @@ pub struct ShaderInterface {
     pub program: Vec<ProgramResource>,
     /// The blocks of push constants that its stages read, without those of the library's own.
     pub pushed: Vec<PushedBlock>,
+    /// Why push constants that became parameters aren't those that the draw brings, in words, where it brings any and the pass gives no
+    /// member of theirs.
+    pub pushed_misfits: Vec<String>,
     /// Vertex attributes that the vertex stage declares.
     pub vertex_inputs: Vec<VertexInput>,
     /// Colour outputs of the fragment stage.
@@ -391,16 +394,42 @@ pub struct Block {
 }
 
 /// A member of a block.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Member {
     /// Name.
     pub name: String,
     /// Offset in bytes.
     pub offset: u32,
-    /// Type, as GLSL writes it: `float`, `int`, `uint`, `bool`, `vec4`, `mat4`, …; `bool` members read as `uint`.
+    /// Type, as GLSL writes it: `float`, `int`, `uint`, `bool`, `vec4`, `mat4`, `float[9]`, …; `bool` members read as `uint`.
     pub ty: String,
-    /// How a matrix lies in the block; `None`: it is none.
+    /// How a matrix lies in the block, or each matrix of an array; `None`: it is none.
     pub matrix: Option<MatrixLayout>,
+    /// Bytes from element to element of an array; `None`: it is none.
+    pub stride: Option<u32>,
+    /// The members of a structure, at their offsets in it; empty: it is none.
+    pub within: Vec<Member>,
+}
+
+impl Block {
+    /// Its members as parameters: those of a structure each by itself, `light.color`.
+    #[must_use]
+    pub fn parameters(&self) -> Vec<Member> {
+        let mut parameters = Vec::new();
+        self.members.iter().for_each(|member| member.add_parameters("", 0, &mut parameters));
+        parameters
+    }
+}
+
+impl Member {
+    fn add_parameters(&self, before: &str, from: u32, parameters: &mut Vec<Member>) {
+        let (name, offset) = (format!("{before}{}", self.name), from.saturating_add(self.offset));
+        if self.within.is_empty() {
+            parameters.push(Member { name, offset, ..self.clone() });
+        } else {
+            let before = format!("{name}.");
+            self.within.iter().for_each(|member| member.add_parameters(&before, offset, parameters));
+        }
+    }
 }
 
 /// How a matrix lies in a block.

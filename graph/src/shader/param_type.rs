@@ -3,7 +3,7 @@
 use crate::frame::{FrameValue, ParamValue};
 use std::fmt;
 
-/// The type of a parameter: a scalar, a vector or a matrix.
+/// The type of a parameter: a scalar, a vector or a matrix, or an array of those.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ParamType {
     /// The type of its components.
@@ -12,6 +12,8 @@ pub struct ParamType {
     pub columns: u32,
     /// Components of a vector, or of a column of a matrix, 2 to 4; 1 for scalars.
     pub rows: u32,
+    /// How many elements an array has; `None`: it is none.
+    pub length: Option<u32>,
 }
 
 /// The type of a component, of 32 bits.
@@ -32,6 +34,10 @@ pub enum ParamScalar {
 pub enum ParamMisfit {
     /// It has another form: a single number in place of a vector, or too few components.
     Form,
+    /// An array has another number of elements: this one.
+    Length(usize),
+    /// An element of an array has another type: its number, from 0 as shaders count, and why.
+    Element(usize, Box<ParamMisfit>),
     /// A component has another type: the numbers of its column and of itself, from 1, and its value. Vectors have no column.
     Component {
         /// The column, of a matrix.
@@ -44,10 +50,15 @@ pub enum ParamMisfit {
 }
 
 impl ParamType {
-    /// The type that GLSL writes so; `None`: an array, a structure, or numbers of other than 32 bits.
+    /// The type that GLSL writes so; `None`: a structure, an array of arrays, one whose length isn't written, or numbers of other than 32 bits.
     #[must_use]
     pub fn of(ty: &str) -> Option<ParamType> {
         use ParamScalar::{Bool, Float, Int, Uint};
+        if let Some((element, length)) = ty.strip_suffix(']').and_then(|ty| ty.split_once('[')) {
+            let length = length.parse().ok().filter(|length| *length > 0)?;
+            return Some(ParamType { length: Some(length), ..ParamType::of(element)? });
+        }
+        let alone = |scalar, columns, rows| ParamType { scalar, columns, rows, length: None };
         let count = |text: &str| match text {
             "2" => Some(2),
             "3" => Some(3),
@@ -56,20 +67,34 @@ impl ParamType {
         };
         let scalar = [("float", Float), ("int", Int), ("uint", Uint), ("bool", Bool)];
         if let Some((_, scalar)) = scalar.into_iter().find(|(name, _)| *name == ty) {
-            return Some(ParamType { scalar, columns: 1, rows: 1 });
+            return Some(alone(scalar, 1, 1));
         }
         if let Some(sides) = ty.strip_prefix("mat") {
             let (columns, rows) = sides.split_once('x').unwrap_or((sides, sides));
-            return Some(ParamType { scalar: Float, columns: count(columns)?, rows: count(rows)? });
+            return Some(alone(Float, count(columns)?, count(rows)?));
         }
         let vectors = [("vec", Float), ("ivec", Int), ("uvec", Uint), ("bvec", Bool)];
         let mut vectors = vectors.into_iter().filter_map(|(name, scalar)| Some((ty.strip_prefix(name)?, scalar)));
-        vectors.next().and_then(|(rows, scalar)| Some(ParamType { scalar, columns: 1, rows: count(rows)? }))
+        vectors.next().and_then(|(rows, scalar)| Some(alone(scalar, 1, count(rows)?)))
     }
 
-    /// The form in which a pipeline file writes such values: `(…, …)`.
+    /// The type of an array's elements; of another type itself.
+    #[must_use]
+    pub const fn element(self) -> ParamType {
+        ParamType { length: None, ..self }
+    }
+
+    /// The form in which a pipeline file writes such values: `(…, …)`, and arrays `[…, …]`.
     #[must_use]
     pub fn form(self) -> String {
+        if let Some(length) = self.length {
+            let element = self.element().form();
+            return match length {
+                1 => format!("[{element}]"),
+                2 => format!("[{element}, {element}]"),
+                _ => format!("[{element}, {element}, …]"),
+            };
+        }
         let list = |count: u32, of: &str| format!("({})", vec![of; count as usize].join(", "));
         let column = if self.rows == 1 { "…".to_owned() } else { list(self.rows, "…") };
         if self.columns == 1 { column } else { list(self.columns, &column) }
@@ -80,6 +105,18 @@ impl ParamType {
     /// # Errors
     /// [`ParamMisfit`] says why it can't be that.
     pub fn take(self, value: &ParamValue) -> Result<ParamValue, ParamMisfit> {
+        if let Some(length) = self.length {
+            let ParamValue::List(elements) = value else { return Err(ParamMisfit::Form) };
+            if elements.len() != length as usize {
+                return Err(ParamMisfit::Length(elements.len()));
+            }
+            let element = |(at, value)| {
+                let taken = self.element().take(value);
+                taken.map_err(|misfit| ParamMisfit::Element(at, Box::new(misfit)))
+            };
+            let taken: Result<Vec<_>, _> = elements.iter().enumerate().map(element).collect();
+            return taken.map(ParamValue::list);
+        }
         let columns = self.columns_of(value).ok_or(ParamMisfit::Form)?;
         let mut taken = Vec::with_capacity(columns.len());
         for (column, components) in columns.iter().enumerate() {
@@ -105,8 +142,18 @@ impl ParamType {
         })
     }
 
-    /// The components of a value by column, where a vector is one column, and a scalar one of one component; `None` if it has
-    /// another form.
+    /// The elements of an array's value, and of another one itself; `None` if it has another form.
+    #[must_use]
+    pub fn elements_of(self, value: &ParamValue) -> Option<&[ParamValue]> {
+        match (self.length, value) {
+            (None, one) => Some(std::slice::from_ref(one)),
+            (Some(length), ParamValue::List(elements)) => Some(&**elements).filter(|it| it.len() == length as usize),
+            (Some(_), _) => None,
+        }
+    }
+
+    /// The components of an element's value by column, where a vector is one column, and a scalar one of one component; `None` if it
+    /// has another form.
     #[must_use]
     pub fn columns_of(self, value: &ParamValue) -> Option<Vec<&[ParamValue]>> {
         let columns: &[ParamValue] = match value {
@@ -172,7 +219,8 @@ impl fmt::Display for ParamType {
             (1, rows) => write!(f, "{prefix}vec{rows}"),
             (columns, rows) if columns == rows => write!(f, "mat{columns}"),
             (columns, rows) => write!(f, "mat{columns}x{rows}"),
-        }
+        }?;
+        self.length.map_or(Ok(()), |length| write!(f, "[{length}]"))
     }
 }
 
@@ -186,18 +234,49 @@ mod tests {
     }
 
     #[test]
-    fn types_are_named_as_glsl_names_them_and_arrays_are_none() {
-        for name in
-            ["float", "int", "uint", "bool", "vec2", "ivec3", "uvec4", "bvec2", "mat2", "mat4", "mat2x3", "mat4x2"]
-        {
+    fn types_are_named_as_glsl_names_them() {
+        for name in [
+            "float",
+            "int",
+            "uint",
+            "bool",
+            "vec2",
+            "ivec3",
+            "uvec4",
+            "bvec2",
+            "mat2",
+            "mat4",
+            "mat2x3",
+            "mat4x2",
+            "float[9]",
+            "mat2x3[1]",
+        ] {
             assert_eq!(ty(name).to_string(), name);
         }
-        for name in ["vec5", "vec", "mat", "mat1", "mat2x", "vec4[2]", "float[3]", "double", "dvec2", "Light", ""] {
+        for name in [
+            "vec5",
+            "vec",
+            "mat",
+            "mat1",
+            "mat2x",
+            "vec4[2][3]",
+            "float[0]",
+            "float[]",
+            "float]",
+            "Light[2]",
+            "double",
+            "dvec2",
+            "Light",
+            "",
+        ] {
             assert_eq!(ParamType::of(name), None, "{name}");
         }
         assert_eq!(ty("int").form(), "…");
         assert_eq!(ty("vec3").form(), "(…, …, …)");
         assert_eq!(ty("mat2x3").form(), "((…, …, …), (…, …, …))");
+        assert_eq!(ty("float[1]").form(), "[…]");
+        assert_eq!(ty("vec2[2]").form(), "[(…, …), (…, …)]");
+        assert_eq!(ty("float[9]").form(), "[…, …, …]");
     }
 
     #[test]
@@ -209,7 +288,9 @@ mod tests {
         assert_eq!(ty("uvec2").take(&truths), Ok(truths.clone()));
         let columns = ParamValue::list([mixed.clone(), mixed.clone()]);
         let column = ParamValue::list([Number(1.0), Number(0.5)]);
-        assert_eq!(ty("mat2").take(&columns), Ok(ParamValue::list([column.clone(), column])));
+        let taken = ParamValue::list([column.clone(), column]);
+        assert_eq!(ty("mat2").take(&columns), Ok(taken.clone()));
+        assert_eq!(ty("vec2[2]").take(&columns), Ok(taken));
     }
 
     #[test]
@@ -223,7 +304,14 @@ mod tests {
             ParamValue::list([Number(1e99), Integer(2)]),
         ]);
         assert_eq!(ty("mat2").take(&nested), component(Some(2), Some(1), Number(1e99)));
+        assert_eq!(ty("float[3]").take(&numbers), Err(ParamMisfit::Length(2)));
+        let second = |misfit| Err(ParamMisfit::Element(1, Box::new(misfit)));
+        let wrong = ParamMisfit::Component { column: None, row: None, value: Number(0.5) };
+        assert_eq!(ty("int[2]").take(&numbers), second(wrong));
+        let pairs = ParamValue::list([numbers.clone(), Integer(2)]);
+        assert_eq!(ty("vec2[2]").take(&pairs), second(ParamMisfit::Form));
         for (name, value) in [
+            ("float[1]", Integer(1)),
             ("vec2", Integer(1)),
             ("vec3", numbers.clone()),
             ("float", numbers.clone()),

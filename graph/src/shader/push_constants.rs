@@ -3,7 +3,7 @@
 use crate::vulkan::Stages;
 
 /// Bytes of push constants that some stages see (`VkPushConstantRange`).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct PushConstants {
     /// The stages: vertex, fragment or both.
     pub stages: Stages,

@@ -2,17 +2,6 @@
 
 use super::{FileLanguage, ShaderName, StageName, UnturnedPart};
 
-/// The position of a fragment in the picture.
-#[must_use]
-pub(crate) const fn position(language: Option<FileLanguage>) -> &'static str {
-    match language {
-        None => "gl_FragCoord",
-        Some(FileLanguage::Hlsl | FileLanguage::Slang) => "SV_Position",
-        Some(FileLanguage::Spirv) => "FragCoord",
-        Some(FileLanguage::Wgsl) => "@builtin(position)",
-    }
-}
-
 /// The shipped function that finds that position in the upright picture, and its file; `None`: the language has none.
 #[must_use]
 pub(crate) const fn upright_position(language: Option<FileLanguage>) -> Option<[&'static str; 2]> {
@@ -41,7 +30,7 @@ pub(crate) fn unturned(shader: &str, part: UnturnedPart) -> String {
         },
         UnturnedPart::FragCoord => {
             let language = FileLanguage::of_shader(shader);
-            let reads = format!("reads `{}`", position(language));
+            let reads = format!("reads `{}`", FileLanguage::place(language));
             match upright_position(language) {
                 Some([function, _]) => format!("{reads} without `{function}`"),
                 None => reads,

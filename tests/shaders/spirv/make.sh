@@ -20,3 +20,6 @@ glslangValidator -gVS -D -V --target-env vulkan1.3 -S frag -e PSMain -o discard_
 dxc -spirv -fspv-target-env=vulkan1.3 -T ps_6_0 -E PSMain -Zi -Fo discard_dxc.spv discard.hlsl
 dxc -spirv -fspv-target-env=vulkan1.3 -T ps_6_0 -E PSMain -fspv-debug=vulkan -Fo discard_dxc_set.spv discard.hlsl
 dxc -spirv -fspv-target-env=vulkan1.3 -T vs_6_0 -E VSMain -Fo mesh_dxc.spv mesh.hlsl
+glslangValidator -D -V --target-env vulkan1.3 -S frag -e PSMain -o kernel.spv kernel.hlsl
+glslangValidator -D -V --target-env vulkan1.3 -S vert -e VSMain -o pushed_draw_vertices.spv pushed_draw.hlsl
+glslangValidator -D -V --target-env vulkan1.3 -S frag -e PSMain -o pushed_draw.spv pushed_draw.hlsl

@@ -44,7 +44,7 @@ room! {
 
     /// A parameter of a shader has another type than the value.
     ///
-    /// The message names the type that the shader declares: a `vec4` takes four numbers, `[1.0, 0.5, 0.0, 1.0]`.
+    /// The message names the type that the shader declares: a `vec4` takes four numbers, `(1.0, 0.5, 0.0, 1.0)`.
     PARAM_TYPE = 808,
 
     /// A shader's parameter gets no value.
@@ -187,4 +187,16 @@ room! {
     /// A shader in HLSL, Slang, WGSL or SPIR-V has several uniform blocks that the pass gives no buffer, and none of them is called
     /// `params`. Put their members into one, or give the others buffers.
     PARAM_BLOCKS = 833,
+
+    /// A parameter that is an array has another number of elements than the value.
+    ///
+    /// The message names the type that the shader declares: a `float[3]` takes three numbers, `[0.25, 0.5, 0.25]`.
+    PARAM_LENGTH = 836,
+
+    /// A module's push constants are neither those of the draw nor parameters.
+    ///
+    /// Push constants of shaders in HLSL, Slang or SPIR-V are the draw's where the program brings the bytes of their members to the stage:
+    /// `DrawInterface::push_constants`, or `push_constants` in an interface file (`--interface`). Else they are parameters, and the pass
+    /// gives each member a value: `params: {"…": …}`.
+    PUSHED_UNFIT = 837,
 }

@@ -51,7 +51,7 @@ pub(in crate::expand) fn check<'i>(
 /// The block at a binding, if it holds parameters of the pass and the draw source brings along nothing of that name.
 fn stray<'i>(pass: &language::Pass, binding: &'i Binding, supplied: &[SuppliedResource]) -> Option<&'i Block> {
     let block = binding.kind.uniform_block().filter(|_| !supplied.iter().any(|there| there.is_called(binding)))?;
-    let holds = |param: &language::Param| block.members.iter().any(|member| member.name == *param.name.text);
+    let holds = |param: &language::Param| block.parameters().iter().any(|member| member.name == *param.name.text);
     pass.params.iter().any(holds).then_some(block)
 }
 

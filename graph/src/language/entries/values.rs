@@ -3,7 +3,7 @@
 
 use crate::base::{Code, Diagnostic};
 use crate::expression::{Value, WantedTypes};
-use crate::frame::{FrameValue, ParamValue};
+use crate::frame::{FrameValue, PARAM_COMPONENTS, ParamValue};
 use crate::language::model::{Decided, Decisions, Fill, SettingKind};
 use crate::language::scope::{Context, FieldContents, FieldValue, Quoted, all, combined, decided, within_view};
 use crate::ron::{Form, Leaf, Number, Reader, Shape, Spanned, Words};
@@ -107,7 +107,14 @@ impl Context<'_> {
 
     /// A value for a shader's parameter, and the words for it in the file.
     pub(crate) fn param(&mut self, leaf: Leaf<'_>) -> Option<FieldValue<Decided<ParamValue>>> {
-        self.param_within(leaf, PARAM_DEPTH)
+        let elements = if matches!(leaf.shape(), Shape::List) { leaf.values() } else { None };
+        let Some(elements) = elements else { return self.param_within(leaf, PARAM_DEPTH) };
+        let elements: Vec<_> = elements.map(|element| self.param_within(element, PARAM_DEPTH)).collect();
+        if elements.is_empty() {
+            self.reader.wrong(Code::WRONG_SHAPE, leaf, "an array has at least one value".to_owned(), "");
+            return None;
+        }
+        listed(leaf, elements)
     }
 
     /// As [`Context::param`], a list of at most so many dimensions.
@@ -118,27 +125,16 @@ impl Context<'_> {
         // Named fields are no components.
         let Some(leaves) = leaf.values() else { return self.param_alone(leaf, dimensions == PARAM_DEPTH) };
         let leaves: Vec<Leaf<'_>> = leaves.collect();
-        if !COMPONENTS.contains(&leaves.len()) {
-            let (least, most) = (COMPONENTS.start(), COMPONENTS.end());
+        if !PARAM_COMPONENTS.contains(&leaves.len()) {
+            let (least, most) = (PARAM_COMPONENTS.start(), PARAM_COMPONENTS.end());
             let what = if dimensions == PARAM_DEPTH { "a vector or matrix" } else { "a column of a matrix" };
             let message = format!("{what} has {least} to {most} values in `(…, …)`; here are {}", leaves.len());
-            self.reader.wrong(Code::WRONG_SHAPE, leaf, message, "");
+            let help = if dimensions == PARAM_DEPTH { "an array stands in `[…, …]`" } else { "" };
+            self.reader.wrong(Code::WRONG_SHAPE, leaf, message, help);
             return None;
         }
         // All of them are read, so that all mistakes are told.
-        let read: Vec<_> = leaves.into_iter().map(|leaf| self.param_within(leaf, dimensions - 1)).collect();
-        let (read, span) = (read.into_iter().collect::<Option<Vec<_>>>()?, leaf.span());
-        Some(combined(read, move |values: Vec<Decided<ParamValue>>| {
-            let mut words: Vec<Arc<str>> = Vec::new();
-            for because in values.iter().filter_map(|value| value.because.as_ref()) {
-                if !words.contains(because) {
-                    words.push(because.clone());
-                }
-            }
-            let because = (!words.is_empty()).then(|| words.join(", ").into());
-            let value = ParamValue::list(values.into_iter().map(|value| value.value));
-            Decided { value, span, because, by: Decisions::default() }
-        }))
+        listed(leaf, leaves.into_iter().map(|leaf| self.param_within(leaf, dimensions - 1)).collect())
     }
 
     /// A single value for a shader's parameter. `lists`: a list could stand there too.
@@ -156,7 +152,7 @@ impl Context<'_> {
                 return Some(FieldValue::said(leaf, value));
             }
             _ => {
-                let more = if lists { "several of them in `(…, …)`, " } else { "" };
+                let more = if lists { "several of them in `(…, …)`, an array in `[…, …]`, " } else { "" };
                 self.reader.expected(leaf, &format!("a number, `true`, `false`, {more}or an expression in quotes"));
                 return None;
             }
@@ -263,6 +259,25 @@ impl Context<'_> {
     }
 }
 
+/// A list of values, with the words for them; `None` if one of them is wrong.
+fn listed(
+    leaf: Leaf<'_>,
+    values: Vec<Option<FieldValue<Decided<ParamValue>>>>,
+) -> Option<FieldValue<Decided<ParamValue>>> {
+    let (values, span) = (values.into_iter().collect::<Option<Vec<_>>>()?, leaf.span());
+    Some(combined(values, move |values: Vec<Decided<ParamValue>>| {
+        let mut words: Vec<Arc<str>> = Vec::new();
+        for because in values.iter().filter_map(|value| value.because.as_ref()) {
+            if !words.contains(because) {
+                words.push(because.clone());
+            }
+        }
+        let because = (!words.is_empty()).then(|| words.join(", ").into());
+        let value = ParamValue::list(values.into_iter().map(|value| value.value));
+        Decided { value, span, because, by: Decisions::default() }
+    }))
+}
+
 /// A value of another type.
 pub(crate) fn typed<T: FieldContents>(
     value: FieldValue<Decided<Value>>,
@@ -335,14 +350,16 @@ pub(crate) const COLOR: Form = Form::Tuple(&[Form::Number, Form::Number, Form::N
 /// Dimensions of a matrix.
 const PARAM_DEPTH: u32 = 2;
 
-/// How many components vectors have, and columns matrices.
-const COMPONENTS: RangeInclusive<usize> = 2..=4;
+/// A vector, or a matrix as a list of its columns.
+const PARAM_LIST: Form =
+    Form::Several(&Form::Either(&[Form::Number, Form::Truth, Form::Several(&Form::Number, 2, 4)]), 2, 4);
 
-/// A value for a shader's parameter: a scalar, a vector, or a matrix as a list of its columns.
+/// A value for a shader's parameter: a scalar, a vector, a matrix, or an array of such.
 pub(crate) const PARAM: Form = Form::Either(&[
     Form::Number,
     Form::Truth,
-    Form::Several(&Form::Either(&[Form::Number, Form::Truth, Form::Several(&Form::Number, 2, 4)]), 2, 4),
+    PARAM_LIST,
+    Form::List(&Form::Either(&[Form::Number, Form::Truth, PARAM_LIST])),
 ]);
 
 const FILLS: &str = "a value is a number, `(depth, stencil)` or `(red, green, blue, alpha)`";

@@ -40,7 +40,7 @@ fn params(members: &[(&str, &str)]) -> Binding {
         name: (*name).to_owned(),
         offset: 4 * at,
         ty: (*ty).to_owned(),
-        matrix: None,
+        ..Member::default()
     });
     let block = Block { bytes: 16, members: members.collect() };
     let kind = BindingKind::UniformBlock(block);
