@@ -276,7 +276,8 @@ fn drawn(
     let devices = planning::on_other_devices(pipeline, choices, &options, (&*name, plan))?;
     let objects = |list: DrawList| scene.count(list);
     let detail = Detail { objects: Some(&objects), verbose: true };
-    let shown = ShownPlan { name: name.into_owned(), plan, detail, sources: Some(&pipeline.sources), times: times.as_ref() };
+    let shown =
+        ShownPlan { name: name.into_owned(), plan, detail, sources: Some(&pipeline.sources), times: times.as_ref() };
     let page = Page { plans: vec![shown], differences: None, devices: &devices, captures: &thumbnails };
     Ok(GoodFrame {
         version,

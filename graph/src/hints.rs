@@ -106,9 +106,9 @@ impl Looked<'_> {
     fn largest_share(&self) -> Vec<Found> {
         let images = self.plan.images.iter().map(|image| (&image.name, &image.role, &image.cause));
         let buffers = self.plan.buffers.iter().map(|buffer| (&buffer.name, &buffer.role, &buffer.cause));
-        let placed = images.chain(buffers).filter_map(|(name, role, cause)| {
-            role.placement().map(|placement| (placement.bytes, name, cause))
-        });
+        let placed = images
+            .chain(buffers)
+            .filter_map(|(name, role, cause)| role.placement().map(|placement| (placement.bytes, name, cause)));
         let all = self.plan.totals.transient_bytes;
         let placed: Vec<_> = placed.collect();
         let largest = placed.iter().max_by_key(|(bytes, ..)| *bytes).filter(|_| placed.len() > 2);
@@ -135,8 +135,7 @@ impl Looked<'_> {
         let images = (0..).zip(&self.plan.images).filter(|(_, image)| image.mips == 1 && image.layers == 1);
         let tell = |(id, image): (u32, &Image)| {
             let written = self.moved_of(ImageId(id), |moved| moved.stored + moved.resolved);
-            let readers: Vec<&Node> =
-                self.flow.nodes.iter().filter(|node| reads_stored(node, ImageId(id))).collect();
+            let readers: Vec<&Node> = self.flow.nodes.iter().filter(|node| reads_stored(node, ImageId(id))).collect();
             let sizes: Option<Vec<[u32; 2]>> = readers.iter().map(|node| self.drawn(node)).collect();
             let [width, height, _] = image.extent;
             let sizes = sizes.filter(|sizes| !sizes.is_empty() && image.role.placement().is_some())?;

@@ -65,7 +65,12 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
         };
         let detail = Detail { verbose: true, ..detail };
         let shown = ShownPlan { name: name.into_owned(), plan, detail, sources: Some(&pipeline.sources), times: None };
-        Ok(framewright_viewer::page(&Page { plans: vec![shown], differences: None, devices: &devices, captures: &captures })?)
+        Ok(framewright_viewer::page(&Page {
+            plans: vec![shown],
+            differences: None,
+            devices: &devices,
+            captures: &captures,
+        })?)
     })?;
     put(arguments, &shown, &read)
 }
@@ -82,8 +87,13 @@ fn inspect_plan(arguments: &InspectArguments, read: &ReadFiles) -> Result<Exit, 
     let detail = Detail { verbose: arguments.verbose, ..Detail::default() };
     let shown = shown(arguments.format, &plan, detail, || {
         let detail = Detail { verbose: true, ..detail };
-        let shown =
-            ShownPlan { name: pipeline.file.to_string_lossy().into_owned(), plan: &plan, detail, sources: None, times: None };
+        let shown = ShownPlan {
+            name: pipeline.file.to_string_lossy().into_owned(),
+            plan: &plan,
+            detail,
+            sources: None,
+            times: None,
+        };
         Ok(framewright_viewer::page(&Page { plans: vec![shown], differences: None, devices: &[], captures: &[] })?)
     })?;
     put(arguments, &shown, read)

@@ -27,7 +27,8 @@ pub(crate) fn serve(arguments: &ServeArguments) -> Result<Exit, Error> {
     let helper = helper::of(&arguments.pipeline)?;
     let choice = device::to_draw_on(arguments.device.name.as_deref())?;
     let port = arguments.port;
-    let server = Server::start((Ipv4Addr::LOCALHOST, port).into(), None).map_err(|source| Error::Port { port, source })?;
+    let server =
+        Server::start((Ipv4Addr::LOCALHOST, port).into(), None).map_err(|source| Error::Port { port, source })?;
     let (address, choices) = (server.address(), server.choices());
     let device = device::open(choice, false, &helper)?;
     let mut session = Session::new(arguments, &device, helper);

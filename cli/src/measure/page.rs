@@ -1,7 +1,7 @@
 //! Results as one HTML page, which needs nothing but the pictures beside it.
 
-use framewright_viewer::html::{self, Template};
 use framewright_lab::results::{Outcome, Results, Row};
+use framewright_viewer::html::{self, Template};
 use serde::Serialize;
 
 const TEMPLATE: Template<'_> = Template {

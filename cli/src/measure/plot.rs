@@ -1,8 +1,8 @@
 //! A plot of time against FLIP with the Pareto front, as SVG.
 
-use framewright_viewer::escape_xml as escaped;
 use framewright_lab::choosing;
 use framewright_lab::results::{Group, Outcome, Results};
+use framewright_viewer::escape_xml as escaped;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 

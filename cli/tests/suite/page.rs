@@ -149,7 +149,8 @@ fn lv_4_the_overview_has_figures_what_is_dearest_and_what_stands_out() {
     let (plan, page) = plan_and_page(&place, &["deferred"]);
     browser.open_file(&page, "");
     assert_eq!(browser.text("state.view"), "overview");
-    let figures = browser.text("[...document.querySelectorAll('#view-overview .large')].map((one) => one.textContent).join()");
+    let figures =
+        browser.text("[...document.querySelectorAll('#view-overview .large')].map((one) => one.textContent).join()");
     let totals = &plan["totals"];
     assert!(figures.starts_with(&format!("{},", totals["passes"])), "{figures}");
     assert!(figures.ends_with(&format!(",{},{}", totals["barrier_calls"], totals["resolves"])), "{figures}");

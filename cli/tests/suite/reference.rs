@@ -92,7 +92,14 @@ fn code(folder: &std::path::Path) -> String {
 fn no_library_names_an_option_of_the_command() {
     let options = options();
     assert!(options.contains("shader-memory") && options.len() > 25, "{options:?}");
-    for library in ["graph/src", "passes/src", "backend-vulkan/src", "framewright/src", "framewright/lab/src", "framewright/viewer/src"] {
+    for library in [
+        "graph/src",
+        "passes/src",
+        "backend-vulkan/src",
+        "framewright/src",
+        "framewright/lab/src",
+        "framewright/viewer/src",
+    ] {
         let code = code(&repository(library));
         for option in &options {
             // `--target-env` of another program's isn't `--target`.

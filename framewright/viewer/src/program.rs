@@ -161,7 +161,8 @@ impl Viewer {
     /// Takes the times of the newest frame that the device is done with, or of the one that the next frame waits for anyway.
     fn take_times(&mut self, renderer: &mut Renderer) -> Result<(), Error> {
         let Some(executor) = renderer.current_executor_mut() else { return Ok(()) };
-        let Some(oldest) = executor.oldest_frame().filter(|frame| self.shown.frame.is_none_or(|last| *frame > last)) else {
+        let Some(oldest) = executor.oldest_frame().filter(|frame| self.shown.frame.is_none_or(|last| *frame > last))
+        else {
             return Ok(());
         };
         self.shown.frame = Some(oldest);
@@ -238,7 +239,10 @@ fn mistake(error: &Error) -> Value {
 /// What the frames took, in words.
 fn took(times: Option<&Times>) -> String {
     times.map_or_else(String::new, |times| {
-        format!("a frame takes {:.2} ms of the device, and {:.2} ms to record", times.frame.median, times.recording.median)
+        format!(
+            "a frame takes {:.2} ms of the device, and {:.2} ms to record",
+            times.frame.median, times.recording.median
+        )
     })
 }
 

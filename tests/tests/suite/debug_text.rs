@@ -5,8 +5,16 @@ use proc_macro2::{Literal, TokenStream, TokenTree};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-const CRATES: [&str; 8] =
-    ["graph", "backend-vulkan", "passes", "framewright", "framewright/c", "framewright/lab", "framewright/viewer", "cli"];
+const CRATES: [&str; 8] = [
+    "graph",
+    "backend-vulkan",
+    "passes",
+    "framewright",
+    "framewright/c",
+    "framewright/lab",
+    "framewright/viewer",
+    "cli",
+];
 
 /// Files that format by `Debug`, how often, and why.
 const ALLOWED: [(&str, usize, &str); 16] = [

@@ -165,7 +165,8 @@ async fn own_pages_alone(State(shared): State<ServerState>, request: Request, ne
     let headers = request.headers();
     let text = |name: HeaderName| headers.get(name).map(|value| value.to_str().unwrap_or_default());
     let host = text(HOST).filter(|host| is_own(&shared, host));
-    let origin = text(ORIGIN).is_none_or(|origin| origin.strip_prefix("http://").is_some_and(|from| Some(from) == host));
+    let origin =
+        text(ORIGIN).is_none_or(|origin| origin.strip_prefix("http://").is_some_and(|from| Some(from) == host));
     let form = request.method() != Method::POST || text(CONTENT_TYPE) == Some("application/json");
     let mut answer = match host.is_some() && origin && form {
         true => next.run(request).await,

@@ -4,7 +4,9 @@ use crate::base::{Code, Diagnostic, OutsideChoice, nearest, shown_number, sugges
 use crate::frame::ParamValue;
 use crate::language;
 use crate::ron::Name;
-use crate::shader::{Block, FileLanguage, Member, PARAMS, PASS_SET, ParamMisfit, ParamType, ShaderInterface, ShaderName};
+use crate::shader::{
+    Block, FileLanguage, Member, PARAMS, PASS_SET, ParamMisfit, ParamType, ShaderInterface, ShaderName,
+};
 use std::sync::Arc;
 
 /// What a type is that no pipeline file can give.

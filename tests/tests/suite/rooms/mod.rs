@@ -6,8 +6,16 @@ mod rules;
 use std::path::Path;
 
 /// The crates whose rooms have an order.
-const CRATES: [&str; 8] =
-    ["graph", "backend-vulkan", "passes", "framewright", "framewright/c", "framewright/lab", "framewright/viewer", "cli"];
+const CRATES: [&str; 8] = [
+    "graph",
+    "backend-vulkan",
+    "passes",
+    "framewright",
+    "framewright/c",
+    "framewright/lab",
+    "framewright/viewer",
+    "cli",
+];
 
 /// The rooms of a crate from the bottom to the top: those that the tables of rooms in docs/architecture.md name, in their order.
 fn order(page: &str, name: &str) -> Vec<String> {
