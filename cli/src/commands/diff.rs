@@ -10,6 +10,7 @@ use crate::system::{Exit, text};
 use framewright_graph::base::{ReadFiles, Sources};
 use framewright_graph::difference::Differences;
 use framewright_graph::plan::{Detail, Plan};
+use framewright_viewer::{Page, ShownPlan};
 use std::path::Path;
 use std::sync::Arc;
 

@@ -13,6 +13,7 @@ use framewright_graph::device::MemoryEstimate;
 use framewright_graph::frame::DrawList;
 use framewright_graph::plan::{Detail, Plan};
 use framewright_lab::picture::FileFormat;
+use framewright_viewer::{MOST_NODES, Page, ShownPlan, Thumbnail};
 use framewright_vulkan::{Device, Helper};
 use std::path::Path;
 

@@ -139,11 +139,7 @@ pub unsafe extern "C" fn framewright_renderer_set_owner(
         with(renderer, |state| {
             let name = text(name, "name")?;
             let [external, foreign] = OutsideOwner::ALL.map(Some);
-            let owners = if std::env::var("FAULT").is_ok_and(|it| it == "19") {
-                [None, None, foreign]
-            } else {
-                [None, external, foreign]
-            };
+            let owners = [None, external, foreign];
             Ok(state.executor()?.set_owner(name, *one_of(&owners, owner, "owner")?)?)
         })
     }

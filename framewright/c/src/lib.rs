@@ -79,7 +79,7 @@ pub use recorder::{
 };
 pub use renderer::{
     FramewrightChange, FramewrightFacts, FramewrightFeature, FramewrightRenderer, FramewrightRotation,
-    FramewrightStereo, framewright_renderer_bind_set, framewright_renderer_features,
+    FramewrightStereo, framewright_renderer_bind_set, framewright_renderer_device_features, framewright_renderer_features,
     framewright_renderer_files_changed, framewright_renderer_free, framewright_renderer_open,
     framewright_renderer_open_carried, framewright_renderer_reload, framewright_renderer_set,
     framewright_renderer_set_dump, framewright_renderer_set_extent, framewright_renderer_set_facts,

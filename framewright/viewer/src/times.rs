@@ -27,6 +27,7 @@ pub struct Times {
 /// Times of a step.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct StepTimes {
+    /// Those of the whole step, its barriers included.
     #[serde(flatten)]
     pub step: Spread,
     /// Those of its passes, in their order. A device that draws in tiles can't tell the passes of one scope apart.

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 /// A setting, as its control needs it.
 #[derive(Debug, Serialize)]
-pub struct Control {
+pub(super) struct Control {
     name: String,
     about: Option<String>,
     /// The value of the frame that is shown.

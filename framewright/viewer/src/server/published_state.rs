@@ -10,6 +10,7 @@ use std::sync::Arc;
 /// A state of the page. The server counts them; before the first one the number is 0.
 #[derive(Debug, Clone, Default)]
 pub struct PublishedState {
+    /// Its number.
     pub version: u64,
     /// The server that numbers them.
     pub server: Arc<str>,
@@ -22,9 +23,11 @@ pub struct PublishedState {
 /// The part of a state that changes even where the last good frame stays.
 #[derive(Debug, Serialize)]
 pub struct LiveState<'a> {
+    /// The version of this form.
     pub format_version: u32,
     /// What tells this server from earlier ones of the same address.
     pub server: &'a str,
+    /// The state's number.
     pub version: u64,
     /// The number of the last good frame: as long as it stays, `page` does.
     pub frame: u64,
@@ -36,10 +39,12 @@ pub struct LiveState<'a> {
     pub message: &'a str,
     /// The texts that the mistakes point into.
     pub sources: &'a [SourceText],
+    /// The pipeline's settings and presets.
     #[serde(flatten)]
     pub controls: &'a Controls,
-    /// The settings and the preset that were chosen in the page.
+    /// The settings that were chosen in the page.
     pub chosen: &'a BTreeMap<String, String>,
+    /// The preset that was chosen in the page.
     pub preset: Option<&'a str>,
     /// The outputs of the last good frame.
     pub outputs: &'a [Output],
@@ -53,6 +58,7 @@ pub struct LiveState<'a> {
 /// A picture of an output.
 #[derive(Debug, Serialize)]
 pub struct Output {
+    /// The output's name.
     pub name: String,
     /// The address of its picture.
     pub picture: String,
@@ -65,5 +71,6 @@ pub struct SourceText {
     pub name: String,
     /// Its name in mistakes.
     pub shown: String,
+    /// What it holds.
     pub text: String,
 }

@@ -4,7 +4,7 @@ use crate::base::{Code, Diagnostic};
 use crate::expand::resources::Resources;
 use crate::frame::{Draw, EyeForm, NoteKind, Remark};
 use crate::language;
-use crate::shader::{FileLanguage, ShaderInterface, UnturnedPart, shader_words};
+use crate::shader::{FileLanguage, LanguageFacts, ShaderInterface, UnturnedPart, shader_words};
 
 /// Reports a shader that reads `gl_FragCoord` without `frag_coord()`, or what its language calls so: in halves it isn't the place in one
 /// eye's picture.

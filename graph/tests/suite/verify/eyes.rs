@@ -282,7 +282,7 @@ fn stored_by_layer(stereo: Stereo) -> Plan {
     let store = |eye: Eye| {
         let work = Described::Dispatch { shader: "store".into(), groups: Groups::Count([1; 3]) };
         let storage = Storage { eye: Some(eye), ..crate::testing::parts::stored("target", stored, eye == Eye::Right) };
-        Pass { storage: vec![storage], ..Pass::new(eye.named("store"), work) }
+        Pass { storage: vec![storage], ..Pass::new(&eye.named("store"), work) }
     };
     frame.passes.splice(0..0, Eye::BOTH.map(store));
     let device = raster::device();
