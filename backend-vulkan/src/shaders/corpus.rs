@@ -59,7 +59,7 @@ fn interface(module: &ModuleFile, stage: ShaderStage, entry: Option<&str>) -> Re
         ShaderProblem::BadModule { what } => what,
         other => format!("{other:?}"),
     })?;
-    if let Verdict::Invalid(finding) = judge(&spirv) {
+    if let Verdict::Invalid(finding) = judge(&cut.spirv) {
         return Err(format!("invalid: {}", finding.words));
     }
     reflect(stage, &cut.spirv, false, false, &ProgramSupply::default()).map_err(|refused| format!("{refused:?}"))
