@@ -291,7 +291,7 @@ mod tests {
     }
 
     #[test]
-    fn no_draw_takes_more_room_than_a_draw_of_vertices() {
-        assert_eq!(size_of::<Draw>(), 12);
+    fn no_draw_takes_more_room_than_several_indirect_draws() {
+        assert_eq!(size_of::<Draw>(), size_of::<IndirectDraws>());
     }
 }

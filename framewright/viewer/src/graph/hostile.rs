@@ -61,14 +61,14 @@ fn graphs_with_hostile_names_are_those_that_are_given_to_the_judges() {
     let names = serde_json::to_string_pretty(&json!(NAMES)).expect("JSON") + "\n";
     let (shown, notes) = mermaid(&plan, &flow);
     assert!(notes.is_empty(), "{notes:?}");
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/formats");
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cli/tests/formats");
     for (name, text) in [("hostile.json", names), ("hostile.dot", dot(&plan, &flow)), ("hostile.mmd", shown)] {
         let path = folder.join(name);
         if std::env::var_os("FRAMEWRIGHT_UPDATE").is_some() {
             std::fs::write(&path, &text).expect("written");
         }
         let kept = std::fs::read_to_string(&path).unwrap_or_default();
-        let update = "FRAMEWRIGHT_UPDATE=1 cargo test --package framewright-cli hostile; git diff cli/tests/formats";
+        let update = "FRAMEWRIGHT_UPDATE=1 cargo test --package framewright-viewer hostile; git diff cli/tests/formats";
         assert!(kept == text, "{name} differs; see: {update}");
     }
 }

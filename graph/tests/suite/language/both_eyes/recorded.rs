@@ -50,16 +50,16 @@ fn do_12_where_nothing_holds_both_eyes_parts_it_runs_as_it_does_elsewhere() {
 
 #[test]
 fn do_12_what_cannot_hold_both_eyes_parts_is_recorded_for_one_eye_after_the_other() {
-    let levels = r#"(name: "own", format: Color(hdr: true), size: Like("color"), mips: 2),"#;
+    let levels = r#"(name: "own", format: Color(hdr: true), size: Like("color"), layers: 2),"#;
     let more = r#"(name: "move", custom: "it", both_eyes: true, writes: ["own"]),"#;
-    for frame in fall_apart(ALL, levels, more, &[("own", "it has mip levels")]) {
+    for frame in fall_apart(ALL, levels, more, &[("own", "it has layers of its own")]) {
         assert_eq!(passes(&frame)[3..], ["move (left)", "move (right)"]);
         assert!(frame.passes.iter().all(|pass| !pass.both_eyes));
     }
     // What such a pass reads, and what one eye alone writes beside it, is there for each eye too.
     let beside = |name: &str| format!("`{name}` draws it for one eye after the other, as it does with `own`");
     let show = "`show` draws it for one eye after the other, as it does with `color`";
-    let own = ("own", "it has mip levels");
+    let own = ("own", "it has layers of its own");
     for (name, more) in [
         (
             "move",
@@ -68,9 +68,9 @@ fn do_12_what_cannot_hold_both_eyes_parts_is_recorded_for_one_eye_after_the_othe
         (
             "store",
             r#"(name: "store", custom: "it", both_eyes: true, side_effect: true,
-            storage: {"a": (image: "color", access: Read), "b": (image: "own", mip: 0, access: Write)}),"#,
+            storage: {"a": (image: "color", access: Read), "b": (image: "own", layer: 0, access: Write)}),"#,
         ),
-        ("copy", r#"(name: "copy", copy: (from: "color", to: (image: "own", mip: 0)), side_effect: true),"#),
+        ("copy", r#"(name: "copy", copy: (from: "color", to: (image: "own", layer: 0)), side_effect: true),"#),
     ] {
         for frame in fall_apart(ALL, levels, more, &[("color", &beside(name)), ("screen", show), own]) {
             assert_eq!(verify(&compiled(&frame)), [], "{name}");
