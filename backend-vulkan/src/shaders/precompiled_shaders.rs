@@ -53,7 +53,7 @@ impl PrecompiledShaders {
     /// Stages that are compiled are added to the folder, which is made if there is none. Nothing is added to files in memory.
     #[must_use]
     pub fn adding(self) -> PrecompiledShaders {
-        PrecompiledShaders { adds: true, ..self }
+        PrecompiledShaders { adds: self.folder().is_some(), ..self }
     }
 
     /// The folder; `None`: the files are in memory.
