@@ -174,7 +174,7 @@ impl Executor {
     /// The image must have been made by this executor's device as the Plan describes it, its usage included, and be in the Plan's state
     /// `before` whenever a frame begins: synchronised with the queue of the first step that touches it, and after each frame brought from
     /// the state `after`. It must live as long as the executor, or until another one is imported and [`Executor::wait`] has waited for the
-    /// last frame before that.
+    /// last frame submitted before that import.
     pub unsafe fn import_image(&mut self, name: &str, image: vk::Image) -> Result<(), Error> {
         // SAFETY: the caller's promise.
         unsafe { self.import_images(name, &[image]) }

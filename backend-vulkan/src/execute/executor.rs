@@ -229,7 +229,7 @@ impl Executor {
         self.first_frame + self.frames.next()
     }
 
-    /// The oldest frame of this executor whose place no later one has taken: the next frame but those in flight waits for it. `None` before
+    /// The oldest frame of this executor whose place no later one has taken: the frame that takes its place waits for it. `None` before
     /// the first.
     #[must_use]
     pub fn oldest_frame(&self) -> Option<u64> {
