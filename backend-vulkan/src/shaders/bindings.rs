@@ -394,3 +394,25 @@ fn members(module: &IndexedModule<'_>, structure: &Instruction, depth: u32, left
     }
     found
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rspirv::dr::Builder;
+
+    #[test]
+    fn a_structure_that_is_all_of_its_block_lies_where_the_block_says() {
+        let mut builder = Builder::new();
+        let float = builder.type_float(32, None);
+        let inner = builder.type_struct_id(None, [float, float]);
+        let outer = builder.type_struct_id(None, [inner]);
+        for (structure, member, offset) in [(inner, 0, 0), (inner, 1, 4), (outer, 0, 64)] {
+            builder.member_decorate(structure, member, Decoration::Offset, [Operand::LiteralBit32(offset)]);
+        }
+        let built = builder.module();
+        let module = IndexedModule::new(&built);
+        let found = block(&module, module.global(outer).expect("it is there"));
+        let offsets: Vec<u32> = found.members.iter().map(|member| member.offset).collect();
+        assert_eq!((found.bytes, offsets), (80, vec![64, 68]));
+    }
+}

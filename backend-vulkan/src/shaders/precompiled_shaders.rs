@@ -192,3 +192,15 @@ fn words_of(bytes: &[u8]) -> Option<Vec<u32>> {
 fn letters(digest: Sha256, bytes: usize) -> String {
     digest.finalize().iter().take(bytes).map(|byte| format!("{byte:02x}")).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_is_added_to_files_in_memory() {
+        let files = || PrecompiledShaders::in_memory([]);
+        assert_eq!(files().adding(), files());
+        assert_ne!(PrecompiledShaders::in_folder("it").adding(), PrecompiledShaders::in_folder("it"));
+    }
+}

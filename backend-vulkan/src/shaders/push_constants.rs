@@ -95,3 +95,37 @@ pub(super) fn as_params(module: &mut Module, stage: ShaderStage, by: &PushedBy) 
     }
     misfits
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rspirv::dr::Builder;
+
+    /// A module with push constants that have the member `strength`, as has a uniform block of the pass if there is one; and their variable.
+    fn module(has_block: bool) -> (Module, u32) {
+        let mut builder = Builder::new();
+        let float = builder.type_float(32, None);
+        let structure = builder.type_struct_id(None, [float]);
+        builder.member_name(structure, 0, "strength");
+        builder.member_decorate(structure, 0, Decoration::Offset, [Operand::LiteralBit32(0)]);
+        let mut variable = |class| {
+            let pointer = builder.type_pointer(None, class, structure);
+            builder.variable(pointer, None, class, None)
+        };
+        let pushed = variable(StorageClass::PushConstant);
+        let of_pass = has_block.then(|| variable(StorageClass::Uniform));
+        if let Some(of_pass) = of_pass {
+            builder.decorate(of_pass, Decoration::DescriptorSet, [Operand::LiteralBit32(PASS_SET)]);
+        }
+        (builder.module(), pushed)
+    }
+
+    #[test]
+    fn a_parameter_that_a_uniform_block_takes_leaves_push_constants_to_the_draw() {
+        let by = PushedBy { draw: vec![PushConstants::new(0, 4)], params: vec!["strength".into()] };
+        for (has_block, misfits) in [(false, Some(Vec::new())), (true, None)] {
+            let (module, pushed) = module(has_block);
+            assert_eq!(by.misfits(&module, ShaderStage::Fragment, &[pushed]), misfits, "{has_block}");
+        }
+    }
+}
