@@ -74,11 +74,13 @@ impl Layers<'_> {
                 self.set(access.image, access.range, access.eye, true);
                 continue;
             }
-            let writes = access.accesses.writes();
-            if access.accesses.intersects(shader_reads) || scope.is_none() && writes.is_empty() {
+            // Within a scope its attachments are among them.
+            let writes = scope.is_none() && !access.accesses.writes().is_empty();
+            let only_reads = scope.is_none() && !writes && !access.accesses.is_empty();
+            if only_reads || access.accesses.intersects(shader_reads) {
                 self.read(id, access.image, access.range, access.eye, found);
             }
-            if scope.is_none() && !writes.is_empty() {
+            if writes {
                 self.set(access.image, access.range, access.eye, true);
             }
         }
