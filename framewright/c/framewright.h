@@ -927,7 +927,7 @@ FramewrightStatus framewright_renderer_wait(FramewrightRenderer *renderer, uint6
 
 // Records a frame into a command buffer of the program's, which the program submits. The command buffer is primary, of the family of the
 // device's queue for graphics, recording, and outside of a rendering scope. It is submitted once, to that queue, after the frames
-// before, and has the timeline semaphore `done` signalled with a value then; or it is given to `framewright_renderer_discard`. It and
+// before and before later ones, and has the timeline semaphore `done` signalled with a value then; or it is given to `framewright_renderer_discard`. It and
 // the semaphore live until the frame was waited for. Until the frame is submitted or discarded, nothing is set for the renderer, and no
 // function is called that waits or plans.
 //
@@ -994,7 +994,7 @@ FramewrightStatus framewright_renderer_states(FramewrightRenderer *renderer,
 // Takes images of the program's own for the external image `name`, from the next frame on: one, or several, as those of a swapchain,
 // of which each frame uses the one that it is told. They are as `framewright_renderer_image_info` says, and are in the state that
 // `framewright_renderer_states` says whenever a frame begins. They live as long as the renderer, or until others are imported and
-// `framewright_renderer_wait` has waited for the last frame before that: nothing is waited for here. After
+// `framewright_renderer_wait` has waited for the last frame submitted before that import: nothing is waited for here. After
 // `FRAMEWRIGHT_CHANGE_PLAN` they are to be imported again: a frame is `FRAMEWRIGHT_STATUS_MISUSE` until they are.
 FramewrightStatus framewright_renderer_import_images(FramewrightRenderer *renderer,
                                                      const char *name,

@@ -49,7 +49,7 @@ impl Executor {
         let changed = self.changed_params(plan)?;
         let renewed = !changed.is_empty();
         if renewed {
-            self.frames.wait_for_all()?;
+            self.wait_for_all()?;
         }
         for ChangedParams { step, pass, filled } in changed {
             self.prepared.steps[step].sets()[pass].take(filled);

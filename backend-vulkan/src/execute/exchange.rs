@@ -42,7 +42,7 @@ impl Executor {
     pub fn read_buffer(&mut self, name: &str) -> Result<Vec<u8>, Error> {
         let id = self.buffer_named(name)?;
         let (frame, state, queue) = self.left(Resource::Buffer(id))?;
-        self.frames.wait_for_all()?;
+        self.wait_for_all()?;
         let buffer = self.prepared.physical.buffer(id, frame);
         let readback = Readback::of_buffer(&self.gpu, buffer.bytes)?;
         self.gpu.submit_once("reading a buffer back", queue, |commands| {
@@ -60,7 +60,7 @@ impl Executor {
         }
         self.check_part(id, plane, mip)?;
         let (frame, state, queue) = self.left(Resource::Image(id))?;
-        self.frames.wait_for_all()?;
+        self.wait_for_all()?;
         let image = self.prepared.physical.image(id, frame);
         let extent = self.prepared.physical.level(self.plan.image(id), mip, frame);
         let readback = Readback::of_image(&self.gpu, &image.descriptor, plane, (mip, extent))?;
@@ -81,7 +81,7 @@ impl Executor {
             return Err(bad());
         };
         let own = self.own(frame)?;
-        self.frames.wait(own)?;
+        self.wait_for_own(own)?;
         let descriptor = self.prepared.physical.image(image, own).descriptor;
         let rotation = self.plan.image(image).rotation;
         self.frames.readback(own, output).ok_or_else(bad)?.texels(&descriptor, rotation)
@@ -96,7 +96,7 @@ impl Executor {
             || Error::BadResource { what: format!("output {output} of frame {frame} is no buffer that was kept") };
         let Some(Resource::Buffer(_)) = self.plan.outputs.get(output).map(|it| it.resource) else { return Err(bad()) };
         let own = self.own(frame)?;
-        self.frames.wait(own)?;
+        self.wait_for_own(own)?;
         self.frames.readback(own, output).ok_or_else(bad)?.bytes()
     }
 
@@ -109,7 +109,7 @@ impl Executor {
     pub fn write_image(&mut self, name: &str, plane: Aspects, mip: u32, bytes: &[u8]) -> Result<(), Error> {
         let id = self.image_named(name)?;
         self.check_part(id, plane, mip)?;
-        self.frames.wait_for_all()?;
+        self.wait_for_all()?;
         self.ready()?;
         let bad = |what: String| Error::BadResource { what: format!("image `{name}` can't be written: {what}") };
         if self.plan.image(id).allocated.is_some() {
@@ -142,7 +142,7 @@ impl Executor {
     /// [`Error::DeviceLost`].
     pub fn write_buffer(&mut self, name: &str, bytes: &[u8]) -> Result<(), Error> {
         let id = self.buffer_named(name)?;
-        self.frames.wait_for_all()?;
+        self.wait_for_all()?;
         self.ready()?;
         // Reading goes on with the one that the last frame used.
         let of_last = self.prepared.physical.choice(Resource::Buffer(id));
@@ -174,7 +174,7 @@ impl Executor {
     /// The image must have been made by this executor's device as the Plan describes it, its usage included, and be in the Plan's state
     /// `before` whenever a frame begins: synchronised with the queue of the first step that touches it, and after each frame brought from
     /// the state `after`. It must live as long as the executor, or until another one is imported and [`Executor::wait`] has waited for the
-    /// last frame before that.
+    /// last frame submitted before that import.
     pub unsafe fn import_image(&mut self, name: &str, image: vk::Image) -> Result<(), Error> {
         // SAFETY: the caller's promise.
         unsafe { self.import_images(name, &[image]) }

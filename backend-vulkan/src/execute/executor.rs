@@ -205,7 +205,7 @@ impl Executor {
     ///
     /// # Safety
     /// The command buffer must be of this executor's device, of the family of its graphics queue, primary, recording, and outside
-    /// of a rendering scope. It must be submitted once, to the graphics queue, after the frames before this one, and `done` must
+    /// of a rendering scope. It must be submitted once, to the graphics queue, after the frames before this one and before later ones, and `done` must
     /// then be signalled; or it must be given to [`Executor::discard`]. Semaphore and command buffer must live until the frame was waited for. The promises on images are those
     /// of [`Executor::submit_with`].
     pub unsafe fn record_into(
@@ -229,7 +229,7 @@ impl Executor {
         self.first_frame + self.frames.next()
     }
 
-    /// The oldest frame of this executor whose place no later one has taken: the next frame but those in flight waits for it. `None` before
+    /// The oldest frame of this executor whose place no later one has taken: the frame that takes its place waits for it. `None` before
     /// the first.
     #[must_use]
     pub fn oldest_frame(&self) -> Option<u64> {
@@ -288,7 +288,23 @@ impl Executor {
 
     /// Waits for the oldest frame on its way, if as many are as may be.
     pub(crate) fn make_room(&mut self) -> Result<(), Error> {
-        self.frames.make_room()
+        let waited = self.frames.make_room();
+        self.retired.let_go(&self.frames);
+        waited
+    }
+
+    /// Waits for every frame on its way.
+    pub(super) fn wait_for_all(&mut self) -> Result<(), Error> {
+        let waited = self.frames.wait_for_all();
+        self.retired.let_go(&self.frames);
+        waited
+    }
+
+    /// Waits for a frame of this number among its own.
+    pub(super) fn wait_for_own(&mut self, own: u64) -> Result<(), Error> {
+        let waited = self.frames.wait(own);
+        self.retired.let_go(&self.frames);
+        waited
     }
 
     /// The Plan that it executes.
@@ -329,8 +345,7 @@ impl Executor {
             let what = format!("`{name}` is shown in a window: `present` draws it, or another image is imported first");
             return Err(Error::BadResource { what });
         }
-        self.frames.make_room()?;
-        self.retired.let_go(&self.frames);
+        self.make_room()?;
         self.choose_images(images)?;
         self.ready()?;
         let number = self.frames.next();
@@ -359,8 +374,7 @@ impl Executor {
     /// [`Error::Timeout`].
     pub fn wait(&mut self, frame: u64) -> Result<(), Error> {
         let Some(own) = frame.checked_sub(self.first_frame) else { return Ok(()) };
-        self.frames.wait(own)?;
-        self.retired.let_go(&self.frames);
+        self.wait_for_own(own)?;
         if self.frames.holds(own) {
             return Ok(());
         }

@@ -36,6 +36,10 @@ pub(crate) struct Frames {
     values_per_frame: u64,
     slots: Vec<FrameSlot>,
     submitted: u64,
+    /// Frames before the one of this number are done: the last of them was waited for.
+    done: u64,
+    /// The value that the outer timeline was waited for to reach.
+    outer_done: u64,
     /// Memory for the waits of a batch, and for what it signals.
     waits: Vec<vk::SemaphoreSubmitInfo<'static>>,
     signals: Vec<vk::SemaphoreSubmitInfo<'static>>,
@@ -85,6 +89,8 @@ impl Frames {
             slots: slots.collect::<Result<_, _>>()?,
             batches,
             submitted: 0,
+            done: 0,
+            outer_done: 0,
             waits: Vec::new(),
             signals: Vec::new(),
             pending,
@@ -371,6 +377,7 @@ impl Frames {
                 self.expect(self.batches.len(), frame, outer);
                 let done = self.gpu.wait_for(DRAWING, &self.pending, self.timeout);
                 done.map_err(|error| self.at_breadcrumbs(error))?;
+                self.outer_done = self.outer_done.max(outer);
             }
             FrameEnd::Given(SemaphorePoint { semaphore, value, .. }) => {
                 (self.given.semaphores[0], self.given.values[0]) = (semaphore, value);
@@ -381,6 +388,7 @@ impl Frames {
             }
         }
         self.slots[at].finished = true;
+        self.done = self.done.max(frame + 1);
         match &mut self.promises {
             Some(promises) => promises.look(&self.gpu, self.slots[at].observers.watch.as_ref()),
             None => Ok(()),
@@ -407,9 +415,15 @@ impl Frames {
             .try_for_each(|slot| self.slots[slot].frame.map_or(Ok(()), |(frame, _)| self.wait_until_done(frame)))
     }
 
-    /// Whether all frames before this one are known to be done.
+    /// Whether all frames before this one are known to be done. Queues end frames in their order, so those before one that was waited for
+    /// are; what signals the program's semaphores after such a frame may be yet to come.
     pub(super) fn are_done_before(&self, frame: u64) -> bool {
-        self.slots.iter().all(|slot| slot.finished || slot.frame.is_none_or(|(number, _)| number >= frame))
+        let is_over = |end: FrameEnd| match end {
+            FrameEnd::Own { outer } => outer <= self.outer_done,
+            FrameEnd::Given(_) => true,
+        };
+        let is_done = |(number, end): (u64, FrameEnd)| number >= frame || number < self.done && is_over(end);
+        self.slots.iter().all(|slot| slot.finished || slot.frame.is_none_or(is_done))
     }
 
     /// Whether a frame was submitted, and no later one has taken its place.

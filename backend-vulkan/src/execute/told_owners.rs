@@ -30,7 +30,7 @@ impl Executor {
             let what = format!("the Plan has no external image or buffer `{name}`");
             return Err(Error::BadResource { what });
         }
-        self.frames.wait_for_all()?;
+        self.wait_for_all()?;
         let told = (name.to_owned(), owner);
         with_owners(&mut self.plan, std::slice::from_ref(&told)).map_err(|what| Error::BadResource { what })?;
         self.told.retain(|(of, _)| of != name);

@@ -137,8 +137,8 @@ impl Device {
 
     /// Whether the device keeps draws and shaders within their buffers. Of an adopted device the program has said so.
     #[must_use]
-    pub fn bounds(&self) -> BufferBounds {
-        BufferBounds { unchecked: !self.gpu.features.bounds() }
+    pub fn checks_bounds(&self) -> bool {
+        self.gpu.features.bounds()
     }
 
     /// How many pipelines were made so far. They are made with an executor, by

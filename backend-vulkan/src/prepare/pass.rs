@@ -198,10 +198,11 @@ fn check_indirect(gpu: &Gpu, pass: &plan::Pass, draws: IndirectDraws) -> Result<
         return Err(format!("{of} indirect draws are more than the {most} of this device"));
     }
     let number = buffers(pass, BufferRole::Count).first().copied();
-    if number.is_some() != draws.count.is_some() {
-        return Err("nothing tells the number of its draws, or two do".to_owned());
+    match (number, draws.count) {
+        (None, Some(_)) => Err("the number of its draws stands in a buffer, and it has none of that role".to_owned()),
+        (Some(_), None) => Err("it has a buffer for the number of its draws, and reads no number there".to_owned()),
+        (None, None) | (Some(_), Some(_)) => Ok((indirect(pass)?, number)),
     }
-    Ok((indirect(pass)?, number))
 }
 
 impl PassPipeline {

@@ -352,7 +352,7 @@ impl<'f> Recorder<'f> {
             let count = indices.end.saturating_sub(indices.start);
             let drawn = self.canvas.for_eyes(instances, |device, commands, first, instances| {
                 // SAFETY: everything that the pipeline reads is bound, the indices exist, and with robustBufferAccess an
-                // index beyond the vertices reads no foreign memory.
+                // index beyond the vertices reads no foreign memory, or the program has vouched for its files (`BufferBounds`, `adopt`).
                 unsafe { device.cmd_draw_indexed(commands, count, instances, indices.start, base_vertex, first) };
             });
             self.note(drawn);

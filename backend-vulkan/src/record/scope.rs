@@ -110,8 +110,8 @@ impl Recording<'_> {
 fn draw_own(canvas: &mut Canvas<'_>, own: &OwnDraw) -> Result<(), String> {
     let (device, commands) = (&canvas.gpu.raw, canvas.commands);
     // SAFETY: the command buffer is being recorded, the Plan's usages were checked by the checker, everything that the pipeline
-    // reads is bound, and with robustBufferAccess an index beyond the vertices reads no foreign memory. A buffer of counts holds
-    // as many commands, and the device allows as many.
+    // reads is bound, and with robustBufferAccess an index beyond the vertices reads no foreign memory, or the program has vouched
+    // for its files (`BufferBounds`, `adopt`). A buffer of counts holds as many commands, and the device allows as many.
     unsafe {
         if !own.vertices.is_empty() {
             device.cmd_bind_vertex_buffers(commands, 0, &own.vertices, &own.offsets);

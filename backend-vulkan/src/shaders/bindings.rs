@@ -352,18 +352,20 @@ pub(super) fn component_of(ty: &str) -> Component {
 }
 
 /// A uniform block's members, and its size rounded up to 16 bytes as std140 does. Of a struct that is all of the block, they are those
-/// of the struct: so one compiler wraps what WGSL binds.
+/// of the struct, from where it begins: so one compiler wraps what WGSL binds.
 pub(super) fn block(module: &IndexedModule<'_>, structure: &Instruction) -> Block {
     let inner = match &structure.operands[..] {
         [Operand::IdRef(only)] => module.global(*only).filter(|it| it.class.opcode == Op::TypeStruct),
         _ => None,
     };
-    let structure = inner.unwrap_or(structure);
     let Some(structure_id) = structure.result_id else { return Block::default() };
-    Block {
-        bytes: module.block_bytes(structure_id),
-        members: members(module, structure, STRUCTURE_DEPTH, &mut { MOST_MEMBERS }),
+    let mut found = members(module, inner.unwrap_or(structure), STRUCTURE_DEPTH, &mut { MOST_MEMBERS });
+    if inner.is_some() {
+        let begins = module.member_decoration(structure_id, 0, Decoration::Offset).flatten().and_then(number);
+        let begins = begins.unwrap_or(0);
+        found.iter_mut().for_each(|member| member.offset = member.offset.saturating_add(begins));
     }
+    Block { bytes: module.block_bytes(structure_id), members: found }
 }
 
 /// Structures within structures are looked into so deep, and so many members of a block are found: a module's may hold itself, and
@@ -391,4 +393,26 @@ fn members(module: &IndexedModule<'_>, structure: &Instruction, depth: u32, left
         });
     }
     found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rspirv::dr::Builder;
+
+    #[test]
+    fn a_structure_that_is_all_of_its_block_lies_where_the_block_says() {
+        let mut builder = Builder::new();
+        let float = builder.type_float(32, None);
+        let inner = builder.type_struct_id(None, [float, float]);
+        let outer = builder.type_struct_id(None, [inner]);
+        for (structure, member, offset) in [(inner, 0, 0), (inner, 1, 4), (outer, 0, 64)] {
+            builder.member_decorate(structure, member, Decoration::Offset, [Operand::LiteralBit32(offset)]);
+        }
+        let built = builder.module();
+        let module = IndexedModule::new(&built);
+        let found = block(&module, module.global(outer).expect("it is there"));
+        let offsets: Vec<u32> = found.members.iter().map(|member| member.offset).collect();
+        assert_eq!((found.bytes, offsets), (80, vec![64, 68]));
+    }
 }

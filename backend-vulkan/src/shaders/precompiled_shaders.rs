@@ -53,7 +53,7 @@ impl PrecompiledShaders {
     /// Stages that are compiled are added to the folder, which is made if there is none. Nothing is added to files in memory.
     #[must_use]
     pub fn adding(self) -> PrecompiledShaders {
-        PrecompiledShaders { adds: true, ..self }
+        PrecompiledShaders { adds: self.folder().is_some(), ..self }
     }
 
     /// The folder; `None`: the files are in memory.
@@ -191,4 +191,16 @@ fn words_of(bytes: &[u8]) -> Option<Vec<u32>> {
 /// The first bytes of a digest in letters.
 fn letters(digest: Sha256, bytes: usize) -> String {
     digest.finalize().iter().take(bytes).map(|byte| format!("{byte:02x}")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_is_added_to_files_in_memory() {
+        let files = || PrecompiledShaders::in_memory([]);
+        assert_eq!(files().adding(), files());
+        assert_ne!(PrecompiledShaders::in_folder("it").adding(), PrecompiledShaders::in_folder("it"));
+    }
 }

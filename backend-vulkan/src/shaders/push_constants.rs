@@ -2,9 +2,9 @@
 //! gives comes in a uniform block.
 
 use super::bindings::{block, pushed, tells_parts};
-use super::module::{IndexedModule, id};
+use super::module::{IndexedModule, id, storage_class};
 use crate::base::ShaderStage;
-use framewright_graph::shader::{BINDINGS, DrawInterface, PARAMS, PASS_SET, PushConstants, offset_name};
+use framewright_graph::shader::{BINDINGS, DrawInterface, Member, PARAMS, PASS_SET, PushConstants, offset_name};
 use rspirv::dr::{Instruction, Module, Operand};
 use rspirv::spirv::{Decoration, Op, StorageClass};
 use std::sync::Arc;
@@ -29,10 +29,16 @@ impl PushedBy {
             return Some(Vec::new());
         }
         let module = IndexedModule::new(module);
-        let types =
-            module.variables().filter(|(id, _)| variables.contains(id)).filter_map(|(_, it)| module.pointee(it));
-        let mut members = types.flat_map(|ty| block(&module, ty).parameters());
-        if members.any(|it| self.params.iter().any(|name| **name == it.name || **name == *offset_name(it.offset))) {
+        let parameters =
+            |it: &Instruction| module.pointee(it).map_or_else(Vec::new, |ty| block(&module, ty).parameters());
+        // What a uniform block of the shader has of the same name is what the pass gives.
+        let others = module.variables().filter(|(variable, it)| is_block_of_pass(&module, *variable, it));
+        let taken: Vec<Member> = others.flat_map(|(_, it)| parameters(it)).collect();
+        let has = |it: &Member, name: &str| name == it.name || name == offset_name(it.offset);
+        let is_given =
+            |it: &Member| self.params.iter().any(|name| has(it, name) && !taken.iter().any(|other| has(other, name)));
+        let pushed_here = module.variables().filter(|(variable, _)| variables.contains(variable));
+        if pushed_here.flat_map(|(_, it)| parameters(it)).any(|it| is_given(&it)) {
             return Some(Vec::new());
         }
         let draw = DrawInterface { push_constants: self.draw.clone(), ..DrawInterface::default() };
@@ -40,6 +46,14 @@ impl PushedBy {
         let misfits: Vec<String> = blocks.iter().filter_map(|block| draw.pushed_misfit(block)).collect();
         (!misfits.is_empty()).then_some(misfits)
     }
+}
+
+/// Whether a variable is a uniform block in the set of the pass.
+fn is_block_of_pass(module: &IndexedModule<'_>, variable: u32, it: &Instruction) -> bool {
+    let of_pass = module.decoration_number(variable, Decoration::DescriptorSet) == Some(PASS_SET);
+    let is_uniform = storage_class(it) == Some(StorageClass::Uniform);
+    let is_block = |ty: &Instruction| ty.class.opcode == Op::TypeStruct && !module.is_storage_block(it, ty);
+    of_pass && is_uniform && module.pointee(it).is_some_and(is_block)
 }
 
 /// Makes a uniform block of push constants that aren't the draw's, `params` unless something else has that name. Returns why those that
@@ -80,4 +94,38 @@ pub(super) fn as_params(module: &mut Module, stage: ShaderStage, by: &PushedBy) 
         }
     }
     misfits
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rspirv::dr::Builder;
+
+    /// A module with push constants that have the member `strength`, as has a uniform block of the pass if there is one; and their variable.
+    fn module(has_block: bool) -> (Module, u32) {
+        let mut builder = Builder::new();
+        let float = builder.type_float(32, None);
+        let structure = builder.type_struct_id(None, [float]);
+        builder.member_name(structure, 0, "strength");
+        builder.member_decorate(structure, 0, Decoration::Offset, [Operand::LiteralBit32(0)]);
+        let mut variable = |class| {
+            let pointer = builder.type_pointer(None, class, structure);
+            builder.variable(pointer, None, class, None)
+        };
+        let pushed = variable(StorageClass::PushConstant);
+        let of_pass = has_block.then(|| variable(StorageClass::Uniform));
+        if let Some(of_pass) = of_pass {
+            builder.decorate(of_pass, Decoration::DescriptorSet, [Operand::LiteralBit32(PASS_SET)]);
+        }
+        (builder.module(), pushed)
+    }
+
+    #[test]
+    fn a_parameter_that_a_uniform_block_takes_leaves_push_constants_to_the_draw() {
+        let by = PushedBy { draw: vec![PushConstants::new(0, 4)], params: vec!["strength".into()] };
+        for (has_block, misfits) in [(false, Some(Vec::new())), (true, None)] {
+            let (module, pushed) = module(has_block);
+            assert_eq!(by.misfits(&module, ShaderStage::Fragment, &[pushed]), misfits, "{has_block}");
+        }
+    }
 }

@@ -367,7 +367,7 @@ pub unsafe extern "C" fn framewright_renderer_wait(
 
 /// Records a frame into a command buffer of the program's, which the program submits. The command buffer is primary, of the family of the
 /// device's queue for graphics, recording, and outside of a rendering scope. It is submitted once, to that queue, after the frames
-/// before, and has the timeline semaphore `done` signalled with a value then; or it is given to `framewright_renderer_discard`. It and
+/// before and before later ones, and has the timeline semaphore `done` signalled with a value then; or it is given to `framewright_renderer_discard`. It and
 /// the semaphore live until the frame was waited for. Until the frame is submitted or discarded, nothing is set for the renderer, and no
 /// function is called that waits or plans.
 ///

@@ -70,7 +70,7 @@ pub unsafe extern "C" fn framewright_renderer_states(
 /// Takes images of the program's own for the external image `name`, from the next frame on: one, or several, as those of a swapchain,
 /// of which each frame uses the one that it is told. They are as `framewright_renderer_image_info` says, and are in the state that
 /// `framewright_renderer_states` says whenever a frame begins. They live as long as the renderer, or until others are imported and
-/// `framewright_renderer_wait` has waited for the last frame before that: nothing is waited for here. After
+/// `framewright_renderer_wait` has waited for the last frame submitted before that import: nothing is waited for here. After
 /// `FRAMEWRIGHT_CHANGE_PLAN` they are to be imported again: a frame is `FRAMEWRIGHT_STATUS_MISUSE` until they are.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn framewright_renderer_import_images(

@@ -81,6 +81,14 @@ impl Stereo {
         }
     }
 
+    /// Whether the number of an instance tells the eye where one image holds both eyes' parts: no buffer can say the instances then.
+    pub(crate) const fn is_by_instance(self) -> bool {
+        match self {
+            Stereo::DoubleWide | Stereo::Instanced => true,
+            Stereo::Off | Stereo::MultiPass | Stereo::Multiview => false,
+        }
+    }
+
     /// The form in which one image holds both eyes' parts on `device` (`None`: a device with no more than Vulkan 1.3
     /// demands); `None`: each eye has an image of its own.
     #[must_use]

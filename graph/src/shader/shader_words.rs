@@ -1,6 +1,6 @@
 //! What languages of shaders call what mistakes speak of. `None` is GLSL everywhere.
 
-use super::{FileLanguage, ShaderName, StageName, UnturnedPart};
+use super::{FileLanguage, UnturnedPart};
 
 /// The shipped function that finds that position in the upright picture, and its file; `None`: the language has none.
 #[must_use]
@@ -22,7 +22,7 @@ pub(crate) fn without_halves(language: &str) -> String {
 #[must_use]
 pub(crate) fn unturned(shader: &str, part: UnturnedPart) -> String {
     match part {
-        UnturnedPart::Vertices => match vertex_language(shader) {
+        UnturnedPart::Vertices => match FileLanguage::of_vertices(shader) {
             None | Some(FileLanguage::Hlsl | FileLanguage::Slang) => {
                 "places vertices without `rotate_clip()`".to_owned()
             }
@@ -57,16 +57,5 @@ pub(crate) fn for_turned_pictures(shader: &str) -> &'static str {
             "let the source of the SPIR-V use `include/rotation.glsl` or `include/rotation.hlsl`"
         }
         Some(FileLanguage::Wgsl) => "WGSL isn't told of rotation: write the shader in GLSL or HLSL",
-    }
-}
-
-/// The language of the vertex stage, as far as the shader of this text names one.
-fn vertex_language(shader: &str) -> Option<FileLanguage> {
-    match ShaderName::of_text(shader) {
-        ShaderName::Stages { vertex: Some(stage), .. } | ShaderName::Whole(stage) => match stage {
-            StageName::Glsl(_) => None,
-            StageName::File { file, .. } => FileLanguage::of_file(&file),
-        },
-        ShaderName::Stages { vertex: None, .. } => None,
     }
 }

@@ -46,6 +46,12 @@ pub(super) fn check(plan: &Plan, found: &mut Findings<'_>) {
                         let what = format!("holds both eyes' parts, and the program records `{name}` for one eye");
                         found.structure(Some(id), target, what);
                     }
+                    if both && plan.stereo.is_by_instance() && pass.draw.is_some_and(Draw::is_indirect) {
+                        let name = &pass.name;
+                        let what =
+                            format!("holds both eyes' parts, and `{name}` draws the instances that a buffer says");
+                        found.structure(Some(id), target, what);
+                    }
                 }
             }
             Work::Custom(pass) if pass.both_eyes => named_eyes(plan, id, &pass.accesses, found),
@@ -91,7 +97,8 @@ fn claims(plan: &Plan, found: &mut Findings<'_>) {
                     format!("`{name}` is recorded for both eyes, and draws into nothing that holds both eyes' parts");
                 found.structure(Some(id), None, what);
             } else if scope.is_none() && !of_both(plan, &pass.accesses) {
-                let what = "is recorded for both eyes, and touches nothing that holds both eyes' parts";
+                let what =
+                    format!("`{name}` is recorded for both eyes, and touches nothing that holds both eyes' parts");
                 found.structure(Some(id), None, what);
             }
         }

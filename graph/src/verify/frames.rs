@@ -75,6 +75,7 @@ fn check_alike(plan: &Plan, found: &mut Findings) {
                     image.mips,
                     image.layers,
                     image.samples,
+                    image.eyes,
                 );
                 (extent, image.usage, image.sharing)
             };

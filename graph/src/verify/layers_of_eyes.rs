@@ -4,7 +4,7 @@
 
 use super::findings::Findings;
 use crate::frame::{Eye, EyeForm};
-use crate::plan::{Access, ImageId, Plan, Resource, Role, Side, Step, StepId};
+use crate::plan::{Access, ImageId, Plan, Role, Side, Step, StepId};
 use crate::vulkan::{Accesses, Layout, LoadOp, Subresources};
 use std::collections::BTreeMap;
 
@@ -38,12 +38,10 @@ pub(super) fn check(plan: &Plan, found: &mut Findings<'_>) {
     for (id, step) in (0..).map(StepId).zip(&plan.steps) {
         layers.step(id, step, found);
     }
-    for output in &plan.outputs {
-        if let Resource::Image(image) = output.resource {
-            let last = StepId(u32::try_from(plan.steps.len()).map_or(0, |steps| steps.saturating_sub(1)));
-            let all = &plan.images[image.0 as usize];
-            layers.read(last, image, Subresources::all(all.format, all.mips, all.layers), None, found);
-        }
+    // What the next frame, or somebody else, finds.
+    let last = StepId(u32::try_from(plan.steps.len()).map_or(0, |steps| steps.saturating_sub(1)));
+    for image in plan.images.iter().filter(|image| image.role.placement().is_none()) {
+        layers.read(last, image.id, Subresources::all(image.format, image.mips, image.layers), None, found);
     }
 }
 
@@ -74,10 +72,16 @@ impl Layers<'_> {
             // What a pass stores it may keep, whatever that is.
             if writes_layer(self.plan, access) {
                 self.set(access.image, access.range, access.eye, true);
-            } else if access.accesses.intersects(shader_reads) {
+                continue;
+            }
+            // Within a scope its attachments are among them.
+            let writes = scope.is_none() && !access.accesses.writes().is_empty();
+            let only_reads = scope.is_none() && !writes && !access.accesses.is_empty();
+            if only_reads || access.accesses.intersects(shader_reads) {
                 self.read(id, access.image, access.range, access.eye, found);
-            } else if scope.is_none() {
-                self.set(access.image, access.range, None, true);
+            }
+            if writes {
+                self.set(access.image, access.range, access.eye, true);
             }
         }
         // A fill has only a target.

@@ -418,7 +418,7 @@ fn a_compute_pass_stores_into_one_eyes_layer_and_no_half() {
         // What both share has no eye.
         frame.passes[2].storage[0].image = NOISE;
         let said = refused(&frame);
-        assert!(said.contains("`store (left)` accesses one eye's layer of `noise`"), "{said}");
+        assert!(said.contains("`store (left)` accesses one eye's part of `noise`, which holds one picture"), "{said}");
     }
 }
 
@@ -477,6 +477,19 @@ fn a_pass_that_can_not_be_recorded_for_both_eyes_and_says_so_is_refused() {
     compiled(&plain);
     custom(&mut plain.passes[2], true);
     assert!(refused(&plain).contains(nothing_drawn), "{}", refused(&plain));
+}
+
+#[test]
+fn draws_whose_instances_a_buffer_says_are_refused_where_instances_are_both_eyes() {
+    for (stereo, form) in MODES {
+        let mut frame = frame(stereo, form);
+        let draw = Draw::Indirect;
+        frame.passes[2].work = Work::Draw { draw, shader: "it".into(), discards: false, per_sample: false };
+        // It has no buffer of counts, so it is refused in each mode.
+        let said = refused(&frame);
+        let expected = "`show` draws the instances that a buffer says into `screen`, which holds both eyes' parts";
+        assert_eq!(said.contains(expected), stereo != Stereo::Multiview, "{stereo:?}: {said}");
+    }
 }
 
 /// `show` draws into an image that both eyes share.

@@ -40,6 +40,9 @@ pub(super) fn pass(frame: &Frame, pass: &Pass, errors: &mut Vec<Diagnostic>) {
     if let Some((image, _)) = target.filter(|_| pass.work.draws(Draw::is_custom) && !pass.both_eyes) {
         wrong(image, pass.span, "is recorded by a program that doesn't say `both_eyes`, and draws into");
     }
+    if let Some((image, _)) = target.filter(|_| pass.work.draws(Draw::is_indirect) && frame.stereo.is_by_instance()) {
+        wrong(image, pass.span, "draws the instances that a buffer says into");
+    }
     // A draw is for whom its target is. Outside of rendering scopes the program says it.
     let draws = pass.work.is_draw();
     let recorded = pass.both_eyes && pass.is_custom() && !draws;
@@ -47,8 +50,7 @@ pub(super) fn pass(frame: &Frame, pass: &Pass, errors: &mut Vec<Diagnostic>) {
     let dispatch = pass.work.groups().is_some();
     for storage in &pass.storage {
         let wrong_so = match (eyes(storage.image), storage.eye) {
-            (None, None) => continue,
-            (None, Some(_)) => "accesses one eye's layer of",
+            (None, _) => continue,
             (Some(EyeForm::Layers), Some(_)) if dispatch => continue,
             (Some(_), _) if recorded => continue,
             (Some(_), _) => "accesses as storage",
@@ -75,10 +77,14 @@ pub(super) fn pass(frame: &Frame, pass: &Pass, errors: &mut Vec<Diagnostic>) {
     {
         wrong(if eyes(from).is_some() { from } else { to }, pass.span, "forwards from or to");
     }
-    for sampled in pass.sampled.iter().filter(|it| it.eye.is_some() && eyes(it.image).is_none()) {
-        let name = &frame.images[sampled.image.0 as usize].name;
-        let what = format!("`{}` samples one eye's part of `{name}`, which holds one picture", pass.name);
-        errors.push(Diagnostic::new(Code::BOTH_EYES, sampled.span, what));
+    let sampled = pass.sampled.iter().map(|it| (it.image, it.eye, it.span, "samples"));
+    let stored = pass.storage.iter().map(|it| (it.image, it.eye, it.span, "accesses"));
+    for (image, _, span, does) in
+        sampled.chain(stored).filter(|(image, eye, ..)| eye.is_some() && eyes(*image).is_none())
+    {
+        let name = &frame.images[image.0 as usize].name;
+        let what = format!("`{}` {does} one eye's part of `{name}`, which holds one picture", pass.name);
+        errors.push(Diagnostic::new(Code::BOTH_EYES, span, what));
     }
     errors.extend(claim_problem(frame, pass).map(|what| {
         Diagnostic::new(Code::CLAIMS_BOTH_EYES, pass.span, format!("`{}` says `both_eyes`, and {what}", pass.name))

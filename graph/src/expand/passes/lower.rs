@@ -66,7 +66,7 @@ pub(in crate::expand) fn lower(
     lowered
 }
 
-/// The pass without its shader's parameters. Stages, and accesses to stereo, storage, are the shader's.
+/// The pass without its shader's parameters. Stages, and whether it reads and writes storage, are the shader's.
 pub(in crate::expand) fn draft(
     resources: &Resources<'_>,
     pass: &language::Pass,

@@ -321,6 +321,17 @@ fn a_layer_that_no_compute_pass_has_written_is_found_where_it_is_read() {
 }
 
 #[test]
+fn draws_whose_instances_a_buffer_says_are_found_where_instances_are_both_eyes() {
+    for (stereo, form) in MODES {
+        let mut plan = plan(stereo, form);
+        scope(&mut plan, "show").passes[0].draw = Some(Draw::Indirect);
+        let said: Vec<String> = verify(&plan).iter().map(ToString::to_string).collect();
+        let expected = "`screen`: holds both eyes' parts, and `show` draws the instances that a buffer says";
+        assert_eq!(said.iter().any(|it| it.contains(expected)), stereo != Stereo::Multiview, "{said:#?}");
+    }
+}
+
+#[test]
 fn mip_levels_of_halves_are_found() {
     for (stereo, form) in MODES {
         let mut plan = plan(stereo, form);
