@@ -3,7 +3,8 @@
 // - A function that can fail returns a status. `framewright_last_error` has the words, with file, line and column where a file is wrong.
 // - Texts are UTF-8 and end with 0. What a pointer of an argument leads to is needed during the call alone, and must not be NULL unless
 //   the function says so.
-// - Handles are made by `…_open`, `…_adopt` and `…_load`, and freed by `…_free`, which takes NULL. What was made from a handle outlives it.
+// - Handles are made by `…_open`, `…_open_carried`, `…_open_physical`, `…_adopt`, `…_load`, `…_clone` and `framewright_renderer_device_features`, and
+//   freed by the `…_free` of their kind, which takes NULL. What was made from a handle outlives it.
 // - A structure that begins with `struct_size` is set to 0 but for that: `FramewrightDeviceOptions options = {.struct_size = sizeof options}`.
 // - Vulkan's handles belong to the program, and are as its Vulkan demands: of the same device, alive, and in the state that is told.
 
@@ -15,7 +16,7 @@
 #include <vulkan/vulkan_core.h>
 
 // The version of this interface. A program that was compiled with another one than `framewright_abi` returns must not call anything else.
-#define FRAMEWRIGHT_ABI 1
+#define FRAMEWRIGHT_ABI 2
 
 // What became of a call. `framewright_last_error` has the words.
 typedef enum {
@@ -296,7 +297,8 @@ typedef struct {
     uint64_t frame;
     // Leads all functions of the name `framewright_pass_…` to the pass.
     const FramewrightResources *resources;
-    // The queue family that the commands are for: that for graphics, or that for compute if the pipeline says `queue: Any`.
+    // The queue family that the commands are for: that for graphics, or that for compute if the pipeline says `queue: Any`. For a compute pass, whose
+    // `commands` is NULL, it is `VK_QUEUE_FAMILY_IGNORED`.
     uint32_t queue_family;
     // What it draws.
     FramewrightDraw draw;
@@ -630,7 +632,7 @@ FramewrightStatus framewright_device_open(const FramewrightDeviceOptions *option
 const char *framewright_device_name(const FramewrightDevice *device);
 
 // Tells Vulkan's handles of a device, for buffers, images and pipelines of the program's own. They live as long as the device, and the program
-// destroys none of them.
+// destroys none of them. While a call of the library draws, uploads or reads back, no other thread submits to queues of the device.
 FramewrightStatus framewright_device_vulkan(const FramewrightDevice *device,
                                             FramewrightVulkan *vulkan);
 
@@ -711,12 +713,13 @@ FramewrightStatus framewright_pass_buffer(const FramewrightPass *pass,
 
 // Tells the numbers of a parameter that the pipeline gives the pass: the components of a vector, the columns of a matrix one behind the other, 0 or 1
 // for a truth value. `count` is how many `numbers` has room for, and is told how many there are; if there are more, it is `FRAMEWRIGHT_STATUS_MISUSE`.
+// Images, buffers and parameters of a compute pass are its shader's: nothing is told of them.
 FramewrightStatus framewright_pass_param(const FramewrightPass *pass,
                                          const char *name,
                                          double *numbers,
                                          size_t *count);
 
-// Fills the set number `set` of `interface` with `bindings`, each of its bindings once. `interface` is as one in
+// Fills the set number `set` of the draw interface `brought` with `bindings`, each of its bindings once. `brought` is as one in
 // `FramewrightRendererOptions.draws`; kinds of draws that bring the same share bind groups.
 //
 // Buffers, views and samplers are the program's, of this device, and made for what they are bound as. They live until the last frame is done
@@ -802,7 +805,8 @@ FramewrightStatus framewright_pass_draw(const FramewrightPass *pass,
                                         uint32_t first_instance,
                                         uint32_t instance_count);
 
-// Draws indexed vertices; `base_vertex` is added to each index. Indices that aren't in the index buffer are the error of the frame. All else is as for
+// Draws indexed vertices; `base_vertex` is added to each index. Indices that aren't in the index buffer are the error of the frame. Vertices that
+// indices choose aren't checked: `robustBufferAccess` keeps them within the VkBuffer; without it the program vouches for them. All else is as for
 // `framewright_pass_draw`.
 FramewrightStatus framewright_pass_draw_indexed(const FramewrightPass *pass,
                                                 uint32_t first_index,
@@ -844,7 +848,8 @@ FramewrightStatus framewright_renderer_set_extent(FramewrightRenderer *renderer,
 // Has images of these names leave the frame beside its outputs, so that they can be read.
 FramewrightStatus framewright_renderer_set_dump(FramewrightRenderer *renderer, const char *const *images, size_t count);
 
-// Shows a scene, and tells its facts. NULL: none, and it may hold everything; passes that draw objects or the sky are an error then.
+// Shows a scene, and tells its facts. Where the options have `draws`, they have `scene_draws` too, or it is refused. NULL: no scene, and it may hold
+// everything; passes that draw objects or the sky are the recorder's then, and without a recorder an error.
 FramewrightStatus framewright_renderer_set_scene(FramewrightRenderer *renderer,
                                                  const FramewrightScene *scene);
 

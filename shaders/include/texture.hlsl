@@ -10,6 +10,7 @@
 //     float4 found_in(image, sampler, st, uv)                what lies at a place of the part, 0 to 1 from its upper left corner
 //     float4 found_in(image, sampler, st, uv, layer)         the same in a layer of a `Texture2DArray`
 //
+// Images hold `float`, `uint` or `int`, of one to four components, and what is looked up has the same type. `found_in` takes those of `float` alone.
 // Nothing is guarded: where texels are infinite, a filter of the device makes NaN of them. Mip levels below the first aren't looked up.
 #ifndef FRAMEWRIGHT_TEXTURE
 #define FRAMEWRIGHT_TEXTURE
@@ -64,7 +65,13 @@ FRAMEWRIGHT_TEXELS(float3)
 FRAMEWRIGHT_TEXELS(float2)
 FRAMEWRIGHT_TEXELS(float)
 FRAMEWRIGHT_TEXELS(uint4)
+FRAMEWRIGHT_TEXELS(uint3)
+FRAMEWRIGHT_TEXELS(uint2)
+FRAMEWRIGHT_TEXELS(uint)
 FRAMEWRIGHT_TEXELS(int4)
+FRAMEWRIGHT_TEXELS(int3)
+FRAMEWRIGHT_TEXELS(int2)
+FRAMEWRIGHT_TEXELS(int)
 FRAMEWRIGHT_FOUND(float4)
 FRAMEWRIGHT_FOUND(float3)
 FRAMEWRIGHT_FOUND(float2)

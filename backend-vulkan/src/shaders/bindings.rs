@@ -7,7 +7,7 @@ use super::text::RefusedStage;
 use crate::base::ShaderStage;
 use crate::base::named;
 use framewright_graph::shader::{
-    BINDINGS, Binding, BindingKind, Block, Member, PASS_SET, PushedBlock, UnbindableResource,
+    BINDINGS, Binding, BindingKind, Block, FileLanguage, Member, PASS_SET, PushedBlock, UnbindableResource,
 };
 use framewright_graph::vulkan::{Component, Dimension, Format, ImageShape};
 use rspirv::dr::{Instruction, Operand};
@@ -88,14 +88,27 @@ pub(super) fn bindings(
     {
         let (Binding { set, binding, name, .. }, other) = (&pair[0], &pair[1].name);
         let what = format!("`{name}` and `{other}` at the same place: set {set}, binding {binding}");
-        return Err(RefusedStage::named(other, what).mended_in_files(SAME_PLACE));
+        return Err(RefusedStage::named(other, what).mended(part_places));
     }
     Ok(bindings)
 }
 
-/// What mends that two registers of HLSL become one place.
-const SAME_PLACE: &str = "where HLSL is compiled, leave out the registers, or let DXC move those of each kind: \
-    `-fvk-t-shift 10 0 -fvk-s-shift 20 0 -fvk-u-shift 30 0`";
+/// What mends that two resources lie at one place, as registers of two kinds in HLSL do.
+const fn part_places(language: Option<FileLanguage>) -> Option<&'static str> {
+    match language {
+        None => None,
+        Some(FileLanguage::Hlsl) => Some(
+            "leave out the registers, or let DXC move those of each kind: \
+             `-fvk-t-shift 10 0 -fvk-s-shift 20 0 -fvk-u-shift 30 0`",
+        ),
+        Some(FileLanguage::Slang) => Some("leave out the registers, or give each a number of its own"),
+        Some(FileLanguage::Spirv) => Some(
+            "where HLSL is compiled, leave out the registers, or let DXC move those of each kind: \
+             `-fvk-t-shift 10 0 -fvk-s-shift 20 0 -fvk-u-shift 30 0`",
+        ),
+        Some(FileLanguage::Wgsl) => Some("give each a `@binding` of its own"),
+    }
+}
 
 /// The blocks of push constants that a stage reads, without that of the parts of images.
 pub(super) fn pushed(module: &IndexedModule<'_>, stage: ShaderStage, used: &HashSet<u32>) -> Vec<PushedBlock> {
@@ -115,8 +128,21 @@ pub(super) fn pushed(module: &IndexedModule<'_>, stage: ShaderStage, used: &Hash
 
 /// That a stage writes what it may not.
 pub(super) fn may_not_store(name: &str, stage: &str) -> RefusedStage {
-    let what = format!("`{name}` is written by a {stage} shader: not every device can; declare it `readonly`");
-    RefusedStage::named(name, what)
+    let what = format!("`{name}` is written by a {stage} shader: not every device can");
+    RefusedStage::named(name, what).mended(only_read)
+}
+
+/// What mends that a stage may write what it may only read.
+#[allow(clippy::unnecessary_wraps, reason = "it is one of `Mends`")]
+const fn only_read(language: Option<FileLanguage>) -> Option<&'static str> {
+    Some(match language {
+        None => "declare it `readonly`",
+        Some(FileLanguage::Hlsl | FileLanguage::Slang) => {
+            "use `StructuredBuffer` in place of `RWStructuredBuffer`, `Texture2D` in place of `RWTexture2D`"
+        }
+        Some(FileLanguage::Spirv) => "let the module decorate it as `NonWritable`",
+        Some(FileLanguage::Wgsl) => "declare it with the access `read`",
+    })
 }
 
 /// That a binding has too large a number.

@@ -25,8 +25,18 @@ pub(super) fn changes_nothing(fragment: &ShaderInterface) -> bool {
 }
 
 /// What mends that a fragment stage reads what the vertex stage doesn't hand over.
-const UNHANDED: &str = "leave it out, or name a vertex stage that hands it over; semantics of HLSL count for nothing, inputs have locations \
-    in their order";
+const fn hand_over(language: Option<FileLanguage>) -> Option<&'static str> {
+    match language {
+        None => None,
+        Some(FileLanguage::Hlsl | FileLanguage::Slang) => Some(
+            "leave it out, or name a vertex stage that hands it over; semantics of HLSL count for nothing, inputs have locations \
+             in their order",
+        ),
+        Some(FileLanguage::Spirv | FileLanguage::Wgsl) => {
+            Some("leave it out, or name a vertex stage that hands it over")
+        }
+    }
+}
 
 /// A type that SPIR-V has, as HLSL writes it: `float4`. Matrices keep the name that GLSL has for them.
 fn in_hlsl(ty: &str) -> String {
@@ -65,7 +75,7 @@ pub(super) fn join(vertex: &CompiledStage, fragment: &CompiledStage) -> Result<S
             );
             // The text has the last word of `i.color` alone.
             let word = input.name.rsplit('.').next().unwrap_or(&input.name);
-            return Err(RefusedStage::named(word, what).mended_in_files(UNHANDED));
+            return Err(RefusedStage::named(word, what).mended(hand_over));
         }
     }
     let mut joined = fragment.reflected.interface.clone();

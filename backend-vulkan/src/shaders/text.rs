@@ -12,9 +12,12 @@ use std::collections::BTreeSet;
 pub(super) struct RefusedStage {
     pub(super) what: String,
     shown_by: Words,
-    /// What mends it in a file that is named with its ending, behind what is wrong.
-    in_files: &'static str,
+    /// What mends it, by the language of the stage.
+    mended: Option<Mends>,
 }
+
+/// What mends a mistake in a language, of which `None` is GLSL; `None`: nothing that could be told.
+pub(super) type Mends = fn(Option<FileLanguage>) -> Option<&'static str>;
 
 /// Words of a text.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -48,37 +51,37 @@ impl Words {
 
 impl From<String> for RefusedStage {
     fn from(what: String) -> RefusedStage {
-        RefusedStage { what, shown_by: Words::None, in_files: "" }
+        RefusedStage { what, shown_by: Words::None, mended: None }
     }
 }
 
 impl RefusedStage {
     /// With the name that the text gives to what is refused.
     pub(super) fn named(name: &str, what: String) -> RefusedStage {
-        RefusedStage { what, shown_by: Words::Whole(name.to_owned()), in_files: "" }
+        RefusedStage { what, shown_by: Words::Whole(name.to_owned()), mended: None }
     }
 
     /// With beginnings of the words that are refused.
     pub(super) fn beginning(words: &'static [&'static str], what: String) -> RefusedStage {
-        RefusedStage { what, shown_by: Words::Beginning(words), in_files: "" }
+        RefusedStage { what, shown_by: Words::Beginning(words), mended: None }
     }
 
     /// With the words that are refused.
     pub(super) fn shown_by(shown_by: Words, what: String) -> RefusedStage {
-        RefusedStage { what, shown_by, in_files: "" }
+        RefusedStage { what, shown_by, mended: None }
     }
 
-    /// With what mends it in a file that is named with its ending.
-    pub(super) fn mended_in_files(self, in_files: &'static str) -> RefusedStage {
-        RefusedStage { in_files, ..self }
+    /// With what mends it.
+    pub(super) fn mended(self, mends: Mends) -> RefusedStage {
+        RefusedStage { mended: Some(mends), ..self }
     }
 
     /// As a message with its place: `FILE:LINE: …`, or `FILE: …` where no line shows it.
     pub(super) fn placed(&self, files: &ShaderFiles, stage: &SourceFile) -> String {
         let place = self.shown_by.place(files, stage);
-        let mended = FileLanguage::of_file(stage.path.path()).filter(|_| !self.in_files.is_empty());
-        match mended {
-            Some(_) => format!("{place}: {}; {}", self.what, self.in_files),
+        let language = FileLanguage::of_file(stage.path.path());
+        match self.mended.and_then(|mends| mends(language)) {
+            Some(how) => format!("{place}: {}; {how}", self.what),
             None => format!("{place}: {}", self.what),
         }
     }

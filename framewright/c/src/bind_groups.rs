@@ -26,7 +26,7 @@ pub struct FramewrightBinding {
     pub image_count: usize,
 }
 
-/// Fills the set number `set` of `interface` with `bindings`, each of its bindings once. `interface` is as one in
+/// Fills the set number `set` of the draw interface `brought` with `bindings`, each of its bindings once. `brought` is as one in
 /// `FramewrightRendererOptions.draws`; kinds of draws that bring the same share bind groups.
 ///
 /// Buffers, views and samplers are the program's, of this device, and made for what they are bound as. They live until the last frame is done

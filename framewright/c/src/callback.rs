@@ -95,8 +95,12 @@ impl PassResources for SharedRecorder<'_, DispatchRecorder<'_>> {
         None
     }
 
+    fn tells(&self) -> bool {
+        false
+    }
+
     fn draws(&self, _: &mut dyn FnMut(&mut Recorder<'_>)) -> Result<(), &'static str> {
-        Err("the pass is a compute pass")
+        Err("the pass is a compute pass: the program only binds, and the dispatch follows by itself")
     }
 
     fn bind_group(&self, set: u32, group: &BindGroup) -> Result<(), &'static str> {

@@ -122,7 +122,7 @@ pub struct FramewrightVulkan {
 }
 
 /// Tells Vulkan's handles of a device, for buffers, images and pipelines of the program's own. They live as long as the device, and the program
-/// destroys none of them.
+/// destroys none of them. While a call of the library draws, uploads or reads back, no other thread submits to queues of the device.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn framewright_device_vulkan(
     device: *const FramewrightDevice,

@@ -214,7 +214,8 @@ pub unsafe extern "C" fn framewright_pass_draw(
     }
 }
 
-/// Draws indexed vertices; `base_vertex` is added to each index. Indices that aren't in the index buffer are the error of the frame. All else is as for
+/// Draws indexed vertices; `base_vertex` is added to each index. Indices that aren't in the index buffer are the error of the frame. Vertices that
+/// indices choose aren't checked: `robustBufferAccess` keeps them within the VkBuffer; without it the program vouches for them. All else is as for
 /// `framewright_pass_draw`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn framewright_pass_draw_indexed(

@@ -130,7 +130,8 @@ pub struct FramewrightPass<'p> {
     pub frame: u64,
     /// Leads all functions of the name `framewright_pass_…` to the pass.
     pub resources: *const FramewrightResources<'p>,
-    /// The queue family that the commands are for: that for graphics, or that for compute if the pipeline says `queue: Any`.
+    /// The queue family that the commands are for: that for graphics, or that for compute if the pipeline says `queue: Any`. For a compute pass, whose
+    /// `commands` is NULL, it is `VK_QUEUE_FAMILY_IGNORED`.
     pub queue_family: u32,
     /// What it draws.
     pub draw: FramewrightDraw,
@@ -159,6 +160,10 @@ pub(crate) trait PassResources: Sync {
     fn image(&self, name: &str) -> Option<CustomImage>;
     fn buffer(&self, name: &str) -> Option<vk::Buffer>;
     fn param(&self, name: &str) -> Option<ParamValue>;
+    /// Whether images, buffers and parameters are told of; else they are the shader's alone.
+    fn tells(&self) -> bool {
+        true
+    }
     /// Has the recorder of the pass record something; if it can't draw, says why.
     fn draws(&self, record: &mut dyn FnMut(&mut Recorder<'_>)) -> Result<(), &'static str>;
     /// Binds a group; if that can't be, says why.
@@ -240,6 +245,15 @@ pub(crate) unsafe fn resources<'p>(pass: *const FramewrightPass<'p>) -> Result<&
     Ok(resources.0)
 }
 
+/// Why a pass tells nothing of what is called `name`: it lacks that, or it never tells.
+fn untold(pass: &dyn PassResources, lacks: &str, name: &str) -> Problem {
+    Problem::Misuse(if pass.tells() {
+        format!("the pass {lacks} `{name}`")
+    } else {
+        format!("`{name}` isn't told: images, buffers and parameters of a compute pass are its shader's")
+    })
+}
+
 /// Tells an image that a pass accesses, by the pipeline's name. Any thread may ask until the callback of the pass returns.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn framewright_pass_image(
@@ -250,8 +264,8 @@ pub unsafe extern "C" fn framewright_pass_image(
     // SAFETY: the caller's word.
     call(|| unsafe {
         let name = text(name, "name")?;
-        let found = resources(pass)?.image(name);
-        let found = found.ok_or_else(|| Problem::Misuse(format!("the pass accesses no image `{name}`")))?;
+        let pass = resources(pass)?;
+        let found = pass.image(name).ok_or_else(|| untold(pass, "accesses no image", name))?;
         let [width, height, depth] = found.extent;
         let range = vk::ImageSubresourceRange {
             aspect_mask: vk::ImageAspectFlags::from_raw(found.range.aspects.bits()),
@@ -277,13 +291,14 @@ pub unsafe extern "C" fn framewright_pass_buffer(
     // SAFETY: the caller's word.
     call(|| unsafe {
         let name = text(name, "name")?;
-        let found = resources(pass)?.buffer(name);
-        output(buffer, "buffer", found.ok_or_else(|| Problem::Misuse(format!("the pass accesses no buffer `{name}`")))?)
+        let pass = resources(pass)?;
+        output(buffer, "buffer", pass.buffer(name).ok_or_else(|| untold(pass, "accesses no buffer", name))?)
     })
 }
 
 /// Tells the numbers of a parameter that the pipeline gives the pass: the components of a vector, the columns of a matrix one behind the other, 0 or 1
 /// for a truth value. `count` is how many `numbers` has room for, and is told how many there are; if there are more, it is `FRAMEWRIGHT_STATUS_MISUSE`.
+/// Images, buffers and parameters of a compute pass are its shader's: nothing is told of them.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn framewright_pass_param(
     pass: *const FramewrightPass<'_>,
@@ -294,8 +309,8 @@ pub unsafe extern "C" fn framewright_pass_param(
     // SAFETY: the caller's word.
     call(|| unsafe {
         let name = text(name, "name")?;
-        let found = resources(pass)?.param(name);
-        let found = found.ok_or_else(|| Problem::Misuse(format!("the pass has no parameter `{name}`")))?;
+        let pass = resources(pass)?;
+        let found = pass.param(name).ok_or_else(|| untold(pass, "has no parameter", name))?;
         let mut all = Vec::new();
         flatten(&found, &mut all);
         let room = *reference(count, "count")?;

@@ -310,7 +310,8 @@ pub unsafe extern "C" fn framewright_renderer_set_dump(
     }
 }
 
-/// Shows a scene, and tells its facts. NULL: none, and it may hold everything; passes that draw objects or the sky are an error then.
+/// Shows a scene, and tells its facts. Where the options have `draws`, they have `scene_draws` too, or it is refused. NULL: no scene, and it may hold
+/// everything; passes that draw objects or the sky are the recorder's then, and without a recorder an error.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn framewright_renderer_set_scene(
     renderer: *mut FramewrightRenderer,
@@ -323,7 +324,7 @@ pub unsafe extern "C" fn framewright_renderer_set_scene(
         with(renderer, |state| {
             if scene.is_some() && !state.draws.scene {
                 return Err(Problem::Misuse(
-                    "`draws` of the options are the program's alone: `scene_draws` has a scene draw the others"
+                    "the options have `draws`: set `scene_draws` for a scene to draw the kinds that aren't listed"
                         .to_owned(),
                 ));
             }

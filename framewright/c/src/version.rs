@@ -3,7 +3,7 @@
 use std::ffi::{CStr, c_char};
 
 /// The version of this interface. A program that was compiled with another one than `framewright_abi` returns must not call anything else.
-pub const FRAMEWRIGHT_ABI: u32 = 1;
+pub const FRAMEWRIGHT_ABI: u32 = 2;
 
 const VERSION: &CStr = match CStr::from_bytes_with_nul(concat!(env!("CARGO_PKG_VERSION"), "\0").as_bytes()) {
     Ok(version) => version,

@@ -50,8 +50,8 @@ pub(crate) fn for_turned_pictures(shader: &str) -> &'static str {
     match FileLanguage::of_shader(shader) {
         None => "use `frag_coord()`, `ddx()`, `ddy()` and `rotate_clip()` of `include/rotation.glsl`",
         Some(FileLanguage::Hlsl | FileLanguage::Slang) => {
-            "use `frag_coord(position)` and `rotate_clip()` of `include/rotation.hlsl`, and choose derivatives by its \
-             `framewright_rotation`"
+            "use `frag_coord(position)` and `rotate_clip()` of `include/rotation.hlsl`; for derivatives choose `ddx` or `ddy` \
+             and the sign by its `framewright_rotation`, 0 to 3 quarters clockwise"
         }
         Some(FileLanguage::Spirv) => {
             "let the source of the SPIR-V use `include/rotation.glsl` or `include/rotation.hlsl`"

@@ -145,6 +145,13 @@ static void draw_mark(const FramewrightPass *pass) {
     check(framewright_pass_draw(pass, 0, 4, 0, 1));
 }
 
+static void tells_nothing(const FramewrightPass *pass) {
+    double number;
+    size_t count = 1;
+    HOLDS(pass->queue_family == VK_QUEUE_FAMILY_IGNORED);
+    FAILS(framewright_pass_param(pass, "corner", &number, &count), MISUSE, "parameters of a compute pass are its shader's");
+}
+
 static uint32_t record(void *context, const FramewrightPass *pass) {
     Program *program = context;
     ++program->calls;
@@ -167,6 +174,7 @@ static uint32_t record(void *context, const FramewrightPass *pass) {
     case FRAMEWRIGHT_DRAW_COMPUTE:
         HOLDS(!pass->in_scope && pass->commands == NULL && strcmp(pass->custom, "computed") == 0);
         FAILS(framewright_pass_draw(pass, 0, 3, 0, 1), MISUSE, "the pass is a compute pass");
+        tells_nothing(pass);
         check(framewright_pass_bind_group(pass, 1, program->camera_group));
         return 1;
     default:

@@ -56,6 +56,7 @@ room! {
     /// The compiler of a shader's language can't be used.
     ///
     /// Slang and WGSL, and HLSL where you like, are compiled by a command that you name: `--shader-compiler slang=slangc`, or
-    /// `FRAMEWRIGHT_SLANG_COMPILER`. It isn't there, took too long, failed without a word, or wrote no SPIR-V of version 1.6 or before.
+    /// `FRAMEWRIGHT_SLANG_COMPILER`. It isn't there, took too long, failed without a word, wrote no SPIR-V of version 1.6 or before, or
+    /// lacks a library of its own. Where slangc lacks one, try `slangc -O0`, which calls none.
     SHADER_COMPILER = 1310,
 }

@@ -94,7 +94,8 @@ room! {
     /// A shader doesn't ask which part of an image is in use.
     ///
     /// Of an image that changes its size a part is used, and beyond it there is nothing. `include/part.glsl` and `include/part.hlsl` have
-    /// `uv_adjust` and `uv_clamp`, which look up within the part.
+    /// `uv_adjust` and `uv_clamp`, which look up within the part. `found_in` of `include/texture.glsl` and `include/texture.hlsl` does
+    /// so in one call.
     PART_NOT_ASKED = 817,
 
     /// An image can't be read at the fragment's own position.

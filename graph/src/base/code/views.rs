@@ -24,8 +24,8 @@ room! {
     ///
     /// Both eyes' pictures lie side by side in one image. What finds the eye's own half in GLSL is `frag_coord()` of
     /// `include/rotation.glsl` and `found_in` of `include/texture.glsl`; in HLSL and Slang `frag_coord(position)` of
-    /// `include/rotation.hlsl`, and `uv_clamp(uv_adjust(…))` of `include/part.hlsl`. SPIR-V files and WGSL aren't told of halves: for
-    /// them choose a mode with layers, or `multi-pass`.
+    /// `include/rotation.hlsl`, and `uv_clamp(uv_adjust(…))` of `include/part.hlsl` or `found_in` of `include/texture.hlsl`. SPIR-V files
+    /// and WGSL aren't told of halves: for them choose a mode with layers, or `multi-pass`.
     EYE_HALF = 1004,
 
     /// The frame has no view.

@@ -42,9 +42,15 @@ pub(super) fn not_asked(
     wrong(message, help)
 }
 
-/// How a place is looked up that may lie beyond the part of the image `name`, as behind an offset.
-pub(super) fn within_part(name: &str) -> String {
-    format!("`uv_clamp(uv_adjust(uv, {name}_st), {name}_st, size)`, {SIZE}")
+/// How a shader looks up a place within the part of the image that it samples as `name`, where that may lie beyond the part, as behind an offset.
+pub(super) fn within_part(shader: &str, name: &str) -> String {
+    let within = format!("`uv_clamp(uv_adjust(uv, {name}_st), {name}_st, size)`, {SIZE}");
+    match FileLanguage::of_shader(shader).and_then(|language| language.facts().includes) {
+        Some(ending) => {
+            format!("{within}, or by `found_in({name}, sampler, {name}_st, uv)` of `include/texture{ending}`")
+        }
+        None => within,
+    }
 }
 
 /// How a shader asks for the extent of the part of the storage image `name`.
@@ -64,7 +70,7 @@ pub(super) fn half_help(shader: &str, name: &str) -> String {
             "include `include/texture.glsl` and look it up by `found_in({name}, {name}_st, uv)` or `texel_in({name}, {name}_st, texel)`"
         ),
         Some(LanguageFacts { includes: Some(ending), .. }) => {
-            format!("include `include/part{ending}` and look it up by {}", within_part(name))
+            format!("include `include/part{ending}` and look it up by {}", within_part(shader, name))
         }
         Some(LanguageFacts { name, .. }) => shader_words::without_halves(name),
     }

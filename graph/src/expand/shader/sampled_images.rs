@@ -357,7 +357,7 @@ impl Check<'_> {
         }
         let declared = self.resources.declared(self.sample.part.image.index).size.span;
         let seen = (self.shader, &**name, &self.sample.part);
-        let by = parts_in_use::within_part(name);
+        let by = parts_in_use::within_part(self.shader, name);
         errors.extend(parts_in_use::not_asked(self.resources, interface, seen, ["samples", &by]));
         if element_of(name).is_some() {
             return;
