@@ -355,6 +355,6 @@ float4 PSMain() : SV_Target0 {{ return float4(eye_index, 0.0, 0.0, 1.0); }}\n"
         place.file("post.hlsl", hlsl("rotate_clip"));
         check().exits(0);
         place.file("post.hlsl", hlsl(""));
-        check().exits(1).mentions("`triangle`").mentions("`rotate_clip()` of `include/rotation.hlsl`; or draw into");
+        check().exits(1).mentions("`triangle`").mentions("`rotate_clip()` of `include/rotation.hlsl`");
     }
 }

@@ -109,8 +109,8 @@ fn a_shader_in_hlsl_is_told_what_hlsl_has_for_halves() {
     for (stereo, device) in IN_HALVES {
         place.file("effect.hlsl", text("at"));
         let said = check(&place, stereo, device).exits(1);
-        let said = said.mentions("error: shader `effect.hlsl` reads `SV_Position` without `frag_coord()`");
-        said.mentions("`frag_coord()` of `include/rotation.hlsl` is the place in the eye's own picture");
+        let said = said.mentions("error: shader `effect.hlsl` reads `SV_Position` without `frag_coord(position)`");
+        said.mentions("`frag_coord(position)` of `include/rotation.hlsl` is the place in the eye's own picture");
         place.file("effect.hlsl", text("frag_coord(at)"));
         check(&place, stereo, device).exits(0);
     }

@@ -79,12 +79,12 @@ pub use recorder::{
 };
 pub use renderer::{
     FramewrightChange, FramewrightFacts, FramewrightFeature, FramewrightRenderer, FramewrightRotation,
-    FramewrightStereo, framewright_renderer_bind_set, framewright_renderer_device_features, framewright_renderer_features,
-    framewright_renderer_files_changed, framewright_renderer_free, framewright_renderer_open,
-    framewright_renderer_open_carried, framewright_renderer_reload, framewright_renderer_set,
-    framewright_renderer_set_dump, framewright_renderer_set_extent, framewright_renderer_set_facts,
-    framewright_renderer_set_output_format, framewright_renderer_set_preset, framewright_renderer_set_rotation,
-    framewright_renderer_set_scene, framewright_renderer_set_stereo,
+    FramewrightStereo, framewright_renderer_bind_set, framewright_renderer_device_features,
+    framewright_renderer_features, framewright_renderer_files_changed, framewright_renderer_free,
+    framewright_renderer_open, framewright_renderer_open_carried, framewright_renderer_reload,
+    framewright_renderer_set, framewright_renderer_set_dump, framewright_renderer_set_extent,
+    framewright_renderer_set_facts, framewright_renderer_set_output_format, framewright_renderer_set_preset,
+    framewright_renderer_set_rotation, framewright_renderer_set_scene, framewright_renderer_set_stereo,
 };
 pub use scene::{FramewrightScene, framewright_scene_free, framewright_scene_load, framewright_scene_mistake};
 pub use sets::FramewrightSet;

@@ -108,7 +108,7 @@ fn graphs_beyond_the_limits_of_mermaid_are_written_and_the_limits_are_said() {
     let beyond = inspect(501);
     assert_eq!(beyond.out.matches("-->").count(), 501);
     let said = "note: the graph has 501 edges, and Mermaid draws at most 500 unless its setting maxEdges is raised, which code hosts don't \
-                do: --format svg and --format dot hold more";
+                do: SVG and DOT hold more";
     assert_eq!(beyond.err.trim_end(), said);
     let long = inspect(1500);
     let length = long.out.encode_utf16().count();

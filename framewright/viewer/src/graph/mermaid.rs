@@ -39,7 +39,7 @@ pub fn mermaid(plan: &Plan, flow: &Dataflow) -> (String, Vec<String>) {
     let beyond = limits.into_iter().filter(|(amount, _, most, _)| amount > most).map(|(amount, of, most, setting)| {
         format!(
             "the graph has {amount} {of}, and Mermaid draws at most {most} unless its setting {setting} is raised, which code \
-             hosts don't do: --format svg and --format dot hold more"
+             hosts don't do: SVG and DOT hold more"
         )
     });
     let beyond = beyond.collect();

@@ -154,6 +154,8 @@ function start() {
   addEventListener("beforeprint", () => { printing = true; VIEWS.forEach((view) => { makeView(view); view.parts.forEach((part) => part.redraw?.()); }); });
   addEventListener("afterprint", () => { printing = false; showView(state.view); });
   showData(DATA);
+  // The first address names its view, so that Back leads to it.
+  if (location.hash === "") writeHash();
   if (DATA.live) follow();
 }
 
