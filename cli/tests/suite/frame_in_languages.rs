@@ -91,11 +91,11 @@ fn frame(way: &Way) -> Place {
 }
 
 /// The picture of the frame's third time; `None`: this driver can't draw it, which is said.
-fn drawn(way: &Way, vulkan: Vulkan, variables: &[(&str, &str)]) -> Option<RgbImage> {
+fn drawn(way: &Way, vulkan: Vulkan, variables: &[(&str, &str)], more: &[&str]) -> Option<RgbImage> {
     let place = frame(way);
     let scene = ["run", "frame.ron", "--scene", "spheres_and_cubes", "--size", "128x72", "--frames", "3", "--validate"];
     let compiler = way.compiler.iter().flat_map(|[option, _]| ["--shader-compiler", option]);
-    let arguments: Vec<&str> = scene.into_iter().chain(["-o", "drawn.png"]).chain(compiler).collect();
+    let arguments: Vec<&str> = scene.iter().chain(more).copied().chain(["-o", "drawn.png"]).chain(compiler).collect();
     let outcome = place.run_with(variables, &arguments);
     // OpCopyLogical of structures, which slangc writes, is too much for Mesa 22.
     if way.ending == ".slang" && vulkan.is_lavapipe() && outcome.err.contains("creating a pipeline failed") {
@@ -128,7 +128,7 @@ fn assert_alike(one: &RgbImage, other: &RgbImage, how: &str) {
 fn a_frame_of_an_engine_draws_the_same_in_each_language() {
     for vulkan in [Vulkan::LAVAPIPE_CURRENT, Vulkan::SWIFTSHADER_CURRENT] {
         let Some(variables) = vulkan.variables() else { continue };
-        let glsl = drawn(&GLSL, vulkan, &variables).expect("GLSL is always drawn");
+        let glsl = drawn(&GLSL, vulkan, &variables, &[]).expect("GLSL is always drawn");
         // It is a picture.
         assert!(glsl.pixels().collect::<std::collections::HashSet<_>>().len() > 500);
         let others = OTHERS.iter().filter(|way| {
@@ -140,10 +140,30 @@ fn a_frame_of_an_engine_draws_the_same_in_each_language() {
             there
         });
         for way in std::iter::once(&HLSL).chain(others) {
-            let Some(picture) = drawn(way, vulkan, &variables) else { continue };
+            let Some(picture) = drawn(way, vulkan, &variables, &[]) else { continue };
             assert_alike(&glsl, &picture, &format!("{} on {vulkan:?}", way.name));
         }
     }
+}
+
+#[test]
+fn do_12_both_eyes_drawn_at_once_are_what_each_draws_by_itself() {
+    let vulkan = Vulkan::SWIFTSHADER_CURRENT;
+    let Some(variables) = vulkan.variables() else { return };
+    for way in [&GLSL, &HLSL] {
+        let [apart, at_once] =
+            ["multi-pass", "multiview"].map(|mode| drawn(way, vulkan, &variables, &["--stereo", mode]));
+        assert!(apart.is_some() && apart == at_once, "{}", way.name);
+    }
+    // Compute passes store into the layer of their eye, so most of the frame is drawn once.
+    let passes = |mode| {
+        let place = frame(&GLSL);
+        let said = place.run(&["check", "frame.ron", "--device", "nvidia-rtx-2080", "--stereo", mode]).exits(0).out;
+        let (before, _) = said.split_once(" passes in ").expect("how many");
+        before.rsplit(' ').next().and_then(|number| number.parse::<u32>().ok()).expect("a number")
+    };
+    let [apart, at_once] = ["multi-pass", "multiview"].map(passes);
+    assert!(at_once < apart * 3 / 4, "{at_once} of {apart} passes");
 }
 
 /// The share of the output that the frame is rendered at, which may be another one in each frame.

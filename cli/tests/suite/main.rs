@@ -54,6 +54,7 @@ mod readme;
 mod reference;
 mod release;
 mod rotation;
+mod running_program;
 mod scene_notes;
 mod seen_alike;
 mod serving;
