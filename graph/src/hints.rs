@@ -103,7 +103,7 @@ impl Looked<'_> {
         bytes > 0 && bytes.saturating_mul(SHARE) >= self.moved
     }
 
-    fn largest_share(&self) -> Vec<Found> {
+    fn largest_share(&self) -> Vec<HintWords> {
         let images = self.plan.images.iter().map(|image| (&image.name, &image.role, &image.cause));
         let buffers = self.plan.buffers.iter().map(|buffer| (&buffer.name, &buffer.role, &buffer.cause));
         let placed = images
@@ -119,7 +119,7 @@ impl Looked<'_> {
         largest.filter(|(taken, ..)| taken.saturating_mul(2) >= all).map(tell).into_iter().collect()
     }
 
-    fn one_reader(&self) -> Vec<Found> {
+    fn one_reader(&self) -> Vec<HintWords> {
         let images = (0..).zip(&self.plan.images).filter(|(_, image)| image.role.placement().is_some());
         let tell = |(id, image): (u32, &Image)| {
             let stored = self.moved_of(ImageId(id), |moved| moved.stored);
@@ -131,7 +131,7 @@ impl Looked<'_> {
         images.filter_map(tell).collect()
     }
 
-    fn shown_smaller(&self) -> Vec<Found> {
+    fn shown_smaller(&self) -> Vec<HintWords> {
         let images = (0..).zip(&self.plan.images).filter(|(_, image)| image.mips == 1 && image.layers == 1);
         let tell = |(id, image): (u32, &Image)| {
             let written = self.moved_of(ImageId(id), |moved| moved.stored + moved.resolved);
@@ -152,10 +152,10 @@ impl Looked<'_> {
         images.filter_map(tell).collect()
     }
 
-    fn loaded_again(&self) -> Vec<Found> {
+    fn loaded_again(&self) -> Vec<HintWords> {
         let scopes: Vec<(StepId, &RenderScope)> =
             (0..).map(StepId).zip(&self.plan.steps).filter_map(|(at, step)| Some((at, step.work.scope()?))).collect();
-        let tell = |pair: &[(StepId, &RenderScope)]| -> Vec<Found> {
+        let tell = |pair: &[(StepId, &RenderScope)]| -> Vec<HintWords> {
             let [(_, before), (step, after)] = pair else { return Vec::new() };
             let [Some(first), Some(second)] = [before, after].map(|scope| scope.passes.first()) else {
                 return Vec::new();
@@ -178,7 +178,7 @@ impl Looked<'_> {
         scopes.windows(2).flat_map(tell).filter(|(_, taken, _)| self.matters(*taken)).collect()
     }
 
-    fn resolved_apart(&self) -> Vec<Found> {
+    fn resolved_apart(&self) -> Vec<HintWords> {
         let apart = self.flow.nodes.iter().filter(|node| node.kind == NodeKind::Resolve);
         let tell = |node: &Node| {
             let taken = self.plan.moved_by(&self.plan.steps[node.step.0 as usize]).sum();
@@ -202,7 +202,7 @@ impl Looked<'_> {
 }
 
 /// The words of a hint, its bytes, and its line.
-type Found = (String, u64, Option<Place>);
+type HintWords = (String, u64, Option<Place>);
 
 /// Whether work reads what was stored of an image, other than by drawing over it.
 fn reads_stored(node: &Node, image: ImageId) -> bool {

@@ -1,6 +1,6 @@
 //! What a program switches on when it makes a device for this crate.
 
-use super::device::BufferBounds;
+use super::buffer_bounds::BufferBounds;
 use super::features::{Features, ROBUST, known_features, minimum_features};
 use super::minimum::{has_extensions, missing, missing_of, too_old};
 use crate::base::Error;

@@ -1,6 +1,6 @@
 //! The features that a device must have, and those that are used where it has them.
 
-use super::device::BufferBounds;
+use super::buffer_bounds::BufferBounds;
 use super::extension_features::{DIVISOR, ExtensionFeatures};
 use super::minimum::has_extensions;
 use super::needed_features::NEEDED_FEATURES;

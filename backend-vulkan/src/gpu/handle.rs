@@ -1,8 +1,8 @@
 //! The device handle: everything that is made from a device holds on to it.
 
+use super::buffer_bounds::BufferBounds;
 use super::cached_objects::Caches;
 use super::dead_images::Followers;
-use super::device::BufferBounds;
 use super::features::Features;
 use super::instance::Instance;
 use super::labels::are_shown;

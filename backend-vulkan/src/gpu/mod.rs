@@ -1,6 +1,7 @@
 //! The device: instance, validation layer, features, queues, and the handle that everything made from it holds on to.
 
 mod adopted_device;
+mod buffer_bounds;
 mod cached_objects;
 mod dead_images;
 mod device;
@@ -26,9 +27,10 @@ mod validation;
 mod words;
 
 pub use adopted_device::AdoptedDevice;
+pub use buffer_bounds::BufferBounds;
 pub use cached_objects::{LocalReads, SamplerDescriptor, ScopeFormats};
 pub use dead_images::DeadImages;
-pub use device::{BufferBounds, Device, DeviceOptions};
+pub use device::{Device, DeviceOptions};
 pub use device_features::DeviceFeatures;
 pub use features::{minimum_features, optional_features};
 pub use minimum::MINIMUM_VERSION;

@@ -14,11 +14,8 @@ mod times;
 mod xml;
 
 pub use graph::{dot, mermaid, svg};
-pub use page::{DeviceDifferences, Page, ShownPlan, Thumbnail, live_page, page, page_data};
+pub use page::{DeviceDifferences, MOST_NODES, Page, ShownPlan, Thumbnail, live_page, page, page_data};
 pub use program::Viewer;
 pub use server::{Choice, Controls, LiveState, Output, PublishedState, Server, SourceText};
 pub use times::{LastFrames, Spread, StepTimes, Times};
 pub use xml::escaped as escape_xml;
-
-/// A graph of more nodes than this isn't laid out: nobody could read the picture, and a browser could hardly hold it.
-pub const MOST_NODES: usize = 3000;

@@ -38,7 +38,7 @@ pub struct Viewer {
     /// What tells it from earlier ones of the same address.
     id: Arc<str>,
     version: u64,
-    shown: Shown,
+    shown: ShownPlanState,
     last: LastFrames,
     told: Option<Instant>,
     /// What the last choice did, if it was refused.
@@ -48,7 +48,7 @@ pub struct Viewer {
 
 /// The Plan that is shown.
 #[derive(Debug, Default)]
-struct Shown {
+struct ShownPlanState {
     /// The renderer's number of it.
     plan: Option<u64>,
     /// The state that had it first.
@@ -75,7 +75,7 @@ impl Viewer {
             server: Server::start(address, Some(&token))?,
             id: format!("{:016x}", secret()).into(),
             version: 0,
-            shown: Shown::default(),
+            shown: ShownPlanState::default(),
             last: LastFrames::default(),
             told: None,
             mistakes: Vec::new(),
@@ -145,7 +145,7 @@ impl Viewer {
             times: None,
         };
         let page = Page { plans: vec![shown], differences: None, devices: &[], captures: &[] };
-        self.shown = Shown {
+        self.shown = ShownPlanState {
             plan: Some(renderer.plans()),
             version: self.version + 1,
             page: page_data(&page).map_err(no_json)?,

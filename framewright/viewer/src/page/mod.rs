@@ -5,7 +5,6 @@ mod thumbnail;
 
 pub use thumbnail::Thumbnail;
 
-use crate::MOST_NODES;
 use crate::html::{self, Template};
 use crate::times::Times;
 use framewright_graph::base::Sources;
@@ -14,6 +13,9 @@ use framewright_graph::difference::Differences;
 use framewright_graph::hints::{Hint, hints};
 use framewright_graph::plan::{Detail, ImageId, MovedBytes, Outline, Plan, Resource, Step};
 use serde::Serialize;
+
+/// A graph of more nodes than this isn't laid out: nobody could read the picture, and a browser could hardly hold it.
+pub const MOST_NODES: usize = 3000;
 
 const TEMPLATE: Template<'_> = Template {
     page: include_str!("page.html"),
