@@ -180,13 +180,12 @@ impl FramewrightRendererOptions {
     }
 }
 
+/// A file in memory: its name, and what it holds.
+type NamedBytes = (Arc<str>, Arc<[u8]>);
+
 /// # Safety
 /// The pointer is NULL, or `count` files stand there.
-unsafe fn files(
-    files: *const FramewrightFile,
-    count: usize,
-    what: &str,
-) -> Result<Vec<(Arc<str>, Arc<[u8]>)>, Problem> {
+unsafe fn files(files: *const FramewrightFile, count: usize, what: &str) -> Result<Vec<NamedBytes>, Problem> {
     // SAFETY: the caller's word.
     let files = unsafe { list(files, count, what)? };
     let file = |(number, file): (usize, &FramewrightFile)| {
