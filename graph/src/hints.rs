@@ -4,14 +4,14 @@
 
 use crate::base::amount::bytes;
 use crate::base::{Place, escape};
-use crate::dataflow::{Dataflow, Node, NodeKind, UseRole};
-use crate::plan::{Cause, Image, ImageId, MovedBytes, Plan, RenderScope, Resource, StepId};
-use crate::vulkan::LoadOp;
+use crate::dataflow::{Dataflow, Node, NodeKind, Use, UseRole};
+use crate::plan::{Attachment, Cause, Image, Plan, RenderScope, Resource, StepId};
+use crate::vulkan::{LoadOp, StoreOp};
 use serde::Serialize;
 use std::cmp::Reverse;
 use std::sync::Arc;
 
-/// A hint is told from this share of what the frame moves or holds on: one part in so many.
+/// A hint concerns at least this part of the bytes that the frame moves: one in 20.
 const SHARE: u64 = 20;
 
 /// Something that stands out.
@@ -68,24 +68,64 @@ impl HintKind {
     }
 }
 
-/// A Plan with what hints ask of it.
-struct Looked<'p> {
+/// A Plan with the figures that hints are made of.
+struct Figures<'p> {
     plan: &'p Plan,
     flow: Dataflow,
     /// The bytes that the frame moves.
     moved: u64,
+    /// By image.
+    images: Vec<ImageFigures>,
+}
+
+/// What a frame does with an image.
+#[derive(Clone, Default)]
+struct ImageFigures {
+    /// The bytes that scopes store of it.
+    stored: u64,
+    /// The bytes that resolves write into it.
+    resolved: u64,
+    /// Indices of the nodes that read what was stored, other than by drawing over it.
+    readers: Vec<usize>,
 }
 
 /// What stands out in `plan`, the most bytes first.
 #[must_use]
 pub fn hints(plan: &Plan) -> Vec<Hint> {
-    let looked = Looked { plan, flow: Dataflow::of(plan), moved: plan.moved().sum() };
-    let mut found: Vec<Hint> = HintKind::ALL.into_iter().flat_map(|kind| looked.of_kind(kind)).collect();
+    let figures = Figures::of(plan);
+    let mut found: Vec<Hint> = HintKind::ALL.into_iter().flat_map(|kind| figures.of_kind(kind)).collect();
     found.sort_by_key(|hint| (Reverse(hint.bytes), hint.kind));
     found
 }
 
-impl Looked<'_> {
+impl<'p> Figures<'p> {
+    fn of(plan: &'p Plan) -> Figures<'p> {
+        let flow = Dataflow::of(plan);
+        let mut images = vec![ImageFigures::default(); plan.images.len()];
+        let figures = |images: &mut [ImageFigures], resource, add: &dyn Fn(&mut ImageFigures)| match resource {
+            Resource::Image(image) => images.get_mut(image.0 as usize).map_or((), add),
+            Resource::Buffer(_) => {}
+        };
+        for (resource, moved) in plan.steps.iter().flat_map(|step| plan.moved_of_each(step)) {
+            figures(&mut images, resource, &|image| {
+                image.stored = image.stored.saturating_add(moved.stored);
+                image.resolved = image.resolved.saturating_add(moved.resolved);
+            });
+        }
+        for (index, node) in flow.nodes.iter().enumerate() {
+            let by_drawing = |used: &Use| [UseRole::Color, UseRole::Depth].contains(&used.role);
+            for used in node.uses.iter().filter(|used| used.reads && !by_drawing(used)) {
+                figures(&mut images, used.resource, &|image| {
+                    // A pass may read several parts.
+                    if image.readers.last() != Some(&index) {
+                        image.readers.push(index);
+                    }
+                });
+            }
+        }
+        Figures { plan, moved: plan.moved().sum(), flow, images }
+    }
+
     fn of_kind(&self, kind: HintKind) -> Vec<Hint> {
         let found = match kind {
             HintKind::LargestShare => self.largest_share(),
@@ -98,7 +138,7 @@ impl Looked<'_> {
         found.into_iter().map(hint).collect()
     }
 
-    /// Whether so many bytes of what the frame moves are worth a word.
+    /// Whether these bytes are enough of what the frame moves.
     fn matters(&self, bytes: u64) -> bool {
         bytes > 0 && bytes.saturating_mul(SHARE) >= self.moved
     }
@@ -120,26 +160,26 @@ impl Looked<'_> {
     }
 
     fn one_reader(&self) -> Vec<HintWords> {
-        let images = (0..).zip(&self.plan.images).filter(|(_, image)| image.role.placement().is_some());
-        let tell = |(id, image): (u32, &Image)| {
-            let stored = self.moved_of(ImageId(id), |moved| moved.stored);
-            let mut readers = self.flow.nodes.iter().filter(|node| reads_stored(node, ImageId(id)));
-            let only = readers.next().filter(|_| readers.next().is_none() && self.matters(stored))?;
-            let text = format!("`{}` is stored for one reader, `{}`", escape(&image.name), escape(&only.name));
-            Some((text, stored, image.cause.at().cloned()))
+        let tell = |(image, figures): (&Image, &ImageFigures)| {
+            let [only] = figures.readers[..] else { return None };
+            let text = format!(
+                "`{}` is stored for one reader, `{}`",
+                escape(&image.name),
+                escape(&self.flow.nodes[only].name)
+            );
+            self.matters(figures.stored).then(|| (text, figures.stored, image.cause.at().cloned()))
         };
-        images.filter_map(tell).collect()
+        self.transient().filter_map(tell).collect()
     }
 
     fn shown_smaller(&self) -> Vec<HintWords> {
-        let images = (0..).zip(&self.plan.images).filter(|(_, image)| image.mips == 1 && image.layers == 1);
-        let tell = |(id, image): (u32, &Image)| {
-            let written = self.moved_of(ImageId(id), |moved| moved.stored + moved.resolved);
-            let readers: Vec<&Node> = self.flow.nodes.iter().filter(|node| reads_stored(node, ImageId(id))).collect();
-            let sizes: Option<Vec<[u32; 2]>> = readers.iter().map(|node| self.drawn(node)).collect();
+        let tell = |(image, figures): (&Image, &ImageFigures)| {
+            let written = figures.stored.saturating_add(figures.resolved);
+            let sizes: Vec<[u32; 2]> =
+                figures.readers.iter().map(|reader| self.drawn(&self.flow.nodes[*reader])).collect::<Option<_>>()?;
             let [width, height, _] = image.extent;
-            let sizes = sizes.filter(|sizes| !sizes.is_empty() && image.role.placement().is_some())?;
-            let halves = sizes.iter().all(|drawn| 2 * drawn[0] <= width + 1 && 2 * drawn[1] <= height + 1);
+            let is_half = |drawn: u32, side: u32| u64::from(drawn) * 2 <= u64::from(side) + 1;
+            let halves = sizes.iter().all(|drawn| is_half(drawn[0], width) && is_half(drawn[1], height));
             let largest = sizes.into_iter().max_by_key(|drawn| u64::from(drawn[0]) * u64::from(drawn[1]))?;
             let text = format!(
                 "`{}` has {width}×{height} texels, and is read by passes that draw {}×{} or less",
@@ -149,7 +189,7 @@ impl Looked<'_> {
             );
             (halves && self.matters(written)).then(|| (text, written, image.cause.at().cloned()))
         };
-        images.filter_map(tell).collect()
+        self.transient().filter(|(image, _)| image.mips == 1 && image.layers == 1).filter_map(tell).collect()
     }
 
     fn loaded_again(&self) -> Vec<HintWords> {
@@ -161,7 +201,11 @@ impl Looked<'_> {
                 return Vec::new();
             };
             let again = after.attachments.iter().filter(|attachment| attachment.load == LoadOp::Load);
-            let again = again.filter(|loaded| before.attachments.iter().any(|stored| stored.image == loaded.image));
+            let stores = |stored: &Attachment| stored.store == StoreOp::Store;
+            let again = again.filter(|loaded| {
+                let same = |stored: &&Attachment| (stored.image, stored.range) == (loaded.image, loaded.range);
+                before.attachments.iter().find(same).is_some_and(stores)
+            });
             let found = again.map(|loaded| {
                 let text = format!(
                     "`{}` is stored by the scope of `{}`, and loaded again by the next one, of `{}`",
@@ -171,7 +215,8 @@ impl Looked<'_> {
                 );
                 let moved = self.plan.moved_of_each(&self.plan.steps[step.0 as usize]).into_iter();
                 let loads = moved.filter(|(resource, _)| *resource == Resource::Image(loaded.image));
-                (text, 2 * loads.map(|(_, moved)| moved.loaded).sum::<u64>(), second.cause.at().cloned())
+                let loaded = loads.fold(0_u64, |sum, (_, moved)| sum.saturating_add(moved.loaded));
+                (text, loaded.saturating_mul(2), second.cause.at().cloned())
             });
             found.collect()
         };
@@ -188,10 +233,10 @@ impl Looked<'_> {
         apart.map(tell).collect()
     }
 
-    /// The bytes that the frame moves of an image, of one kind.
-    fn moved_of(&self, image: ImageId, kind: impl Fn(MovedBytes) -> u64) -> u64 {
-        let each = self.plan.steps.iter().flat_map(|step| self.plan.moved_of_each(step));
-        each.filter(|(resource, _)| *resource == Resource::Image(image)).map(|(_, moved)| kind(moved)).sum()
+    /// Images that live within the frame.
+    fn transient(&self) -> impl Iterator<Item = (&Image, &ImageFigures)> {
+        let all = self.plan.images.iter().zip(&self.images);
+        all.filter(|(image, _)| image.role.placement().is_some())
     }
 
     /// Width and height that a pass draws; `None`: it dispatches, or copies.
@@ -203,9 +248,3 @@ impl Looked<'_> {
 
 /// The words of a hint, its bytes, and its line.
 type HintWords = (String, u64, Option<Place>);
-
-/// Whether work reads what was stored of an image, other than by drawing over it.
-fn reads_stored(node: &Node, image: ImageId) -> bool {
-    let mut reads = node.uses.iter().filter(|used| used.resource == Resource::Image(image) && used.reads);
-    reads.any(|used| ![UseRole::Color, UseRole::Depth].contains(&used.role))
-}

@@ -76,3 +76,20 @@ fn lv_4_hints_say_what_the_plan_says() {
         }
     }
 }
+
+#[test]
+fn lv_4_what_is_stored_and_loaded_again_at_once_stands_out() {
+    let text = r#"Pipeline(version: 1, images: [
+            (name: "big", format: R16G16B16A16_SFLOAT, size: Fixed(512, 512)),
+            (name: "depth", format: D32_SFLOAT, size: Like("big")),
+            (name: "screen", format: R8G8B8A8_UNORM, size: Output)],
+         passes: [
+            (name: "before", draw: Objects(Opaque), shader: "lit", color: [(image: "big", clear: (0, 0, 0, 1))], depth: (image: "depth", clear: 0.0)),
+            (name: "light", draw: FullScreen("downsample"), sample: {"source": "depth"}, color: ["big"]),
+            (name: "over", draw: Objects(Opaque), shader: "lit", color: ["big"], depth: "depth"),
+            (name: "show", draw: FullScreen("tone_map"), sample: {"source": "big"}, params: {"exposure": 1.0, "white_point": 1.0},
+             color: ["screen"])], outputs: ["screen"])"#;
+    let found = of_kind(&compiled(&right(text, &INPUTS)), HintKind::LoadedAgain);
+    let said = "`big` is stored by the scope of `light`, and loaded again by the next one, of `over`";
+    assert!(found.iter().any(|hint| hint.text == said && hint.bytes == 2 * 512 * 512 * 8), "{found:#?}");
+}
