@@ -106,6 +106,7 @@ fn lv_1_a_running_program_shows_its_plan_times_and_pictures_and_takes_settings()
     let texels: Vec<String> = ended.texels.iter().map(u8::to_string).collect();
     assert!(shown == texels.join(","), "the picture is another one");
     render::silent(device).expect("silent");
-    // The program has ended, its server with the process: the page goes on asking, and stays.
+    // The program has let go of its viewer, and the server ends with it. The page says so, and goes on showing what it has.
+    browser.until("live.bar.status.textContent.startsWith('The server doesn')");
     assert_eq!(browser.count("models.length"), 1);
 }

@@ -51,7 +51,7 @@ struct ServerState {
     choices: mpsc::Sender<Choice>,
 }
 
-/// A server of the live page, on a thread of its own, as long as the program runs.
+/// A server of the live page, on a thread of its own, as long as this lives.
 #[derive(Debug)]
 pub struct Server {
     address: SocketAddr,
@@ -62,8 +62,8 @@ pub struct Server {
 }
 
 impl Server {
-    /// One at this address, whose port may be 0: it takes one that is free. It has no state yet. With a `token` it answers whoever knows
-    /// that, through a tunnel too; without, browsers of this machine alone.
+    /// A server at this address. For port 0 it takes a port that is free. A server with a `token` answers whoever knows it, through a
+    /// tunnel too. One without answers browsers of this machine alone.
     ///
     /// # Errors
     /// If the address can't be had.
@@ -90,10 +90,12 @@ impl Server {
             tokio::net::TcpListener::from_std(listener)?
         };
         std::thread::Builder::new().name("framewright viewer".to_owned()).spawn(move || {
-            // It only ends with the program.
             runtime.block_on(async {
+                let mut shown = shared.shown.clone();
                 tokio::spawn(forget_who_left(shared.clone()));
-                drop(serve(listener, routes(shared)).await);
+                tokio::spawn(async move { drop(serve(listener, routes(shared)).await) });
+                // It ends with whom publishes; what is on its way ends with it.
+                while shown.changed().await.is_ok() {}
             });
         })?;
         Ok(Server { address, token, publish, choices, watched })
