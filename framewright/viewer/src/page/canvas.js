@@ -1,3 +1,6 @@
+/** Empty room around a drawing. */
+const MARGIN = 20;
+
 /**
  * A drawing that is moved by dragging and zoomed by the wheel, with a map of all of it in a corner. It holds only what is in sight:
  * `draw(svg, [left, top, width, height])` is called at each change.

@@ -1,5 +1,4 @@
 /** The graph: steps as boxes from top to bottom with their passes and what they write, and the contents that go between. */
-const MARGIN = 20;
 const ROW = 20;
 /** Frames of more passes than this begin with their fragments folded. */
 const FOLD_ABOVE = 80;

@@ -15,38 +15,6 @@ function gridColumns(model) {
   return columns;
 }
 
-/** The rows: images and buffers, each with its marks by column, its roles, and the bytes that it moves in all. */
-function gridRows(model) {
-  const rows = new Map();
-  model.nodes.forEach((node, at) => node.uses.forEach((use) => {
-    const key = model.resourceKey(use.resource);
-    if (!rows.has(key)) rows.set(key, { key, resource: model.resourceOf(use.resource), first: at, last: at, marks: new Map(), roles: new Set(), moved: 0 });
-    const row = rows.get(key);
-    row.last = at;
-    const mark = row.marks.get(at) || { reads: false, writes: false, roles: new Set(), about: attachmentOf(model, node, use.resource) };
-    mark.reads ||= use.reads;
-    mark.writes ||= use.writes;
-    mark.roles.add(use.role.replace("_", " "));
-    row.roles.add(use.role);
-    row.marks.set(at, mark);
-  }));
-  for (const each of model.movedEach) for (const [resource, moved] of each) if (rows.has(model.resourceKey(resource))) rows.get(model.resourceKey(resource)).moved += movedSum(moved);
-  return [...rows.values()];
-}
-
-/** What a pass's step does with an image around the pass: whether it waits at a barrier, loads, stores and resolves it. */
-function attachmentOf(model, node, resource) {
-  const step = model.plan.steps[node.step];
-  const nodes = model.byKey.get(model.stepKey(node.step)).nodes;
-  const uses = nodes.filter((one) => one.uses.some((use) => JSON.stringify(use.resource) === JSON.stringify(resource)));
-  const attachment = "image" in resource && step.work.render ? step.work.render.attachments.find((one) => one.image === resource.image) : null;
-  return {
-    barrier: uses[0] === node && "image" in resource && step.image_barriers.some((barrier) => barrier.image === resource.image),
-    loads: uses[0] === node && attachment?.load === "LOAD",
-    stores: uses.at(-1) === node && attachment?.store === "STORE",
-  };
-}
-
 const isOfKind = (row, kind) => ({
   all: true,
   related: state.selected === null || row.key === state.selected || relatedKeys().has(row.key),
@@ -59,7 +27,7 @@ const isOfKind = (row, kind) => ({
 function gridView(model) {
   if (!model.plan) return tooLarge(model);
   const columns = gridColumns(model);
-  const all = gridRows(model);
+  const all = model.rows();
   let kind = "all";
   let rows = all;
   const x = (column) => NAMES + SUMS + column * CELL;
@@ -119,7 +87,7 @@ function drawRow({ key, resource, first, last, marks, moved }, columns, [from, t
   for (const [at, mark] of marks) {
     if (at < from || at >= to) continue;
     const how = mark.reads && mark.writes ? "both" : mark.writes ? "writes" : "reads";
-    const { barrier, loads, stores } = mark.about;
+    const { barrier, loads, stores } = mark;
     const more = [barrier ? "after a barrier" : null, loads ? "loaded" : null, stores ? "stored" : null].filter(Boolean).map((word) => ", " + word).join("");
     body.append(shape("g", { class: "mark", "data-key": key + "\u0001" + columns[at].key, onclick: choose },
       shape("title", {}, `${columns[at].title}: ${resource.name}, ${how === "both" ? "reads and writes" : how} (${[...mark.roles].join(", ")})${more}`),

@@ -53,6 +53,52 @@ class Model {
     this.peak = this.alive.indexOf(Math.max(0, ...this.alive));
   }
 
+  /**
+   * Images and buffers that work uses: how each node does (`marks`), how each step does (`steps`), in which roles, and the bytes that the
+   * frame moves of each.
+   */
+  rows() {
+    if (this.made_rows) return this.made_rows;
+    const rows = new Map();
+    const none = () => ({ reads: false, writes: false, roles: new Set() });
+    this.nodes.forEach((node, at) => node.uses.forEach((use) => {
+      const key = this.resourceKey(use.resource);
+      if (!rows.has(key)) rows.set(key, { key, resource: this.resourceOf(use.resource), first: at, marks: new Map(), steps: new Map(), roles: new Set(), moved: 0 });
+      const row = rows.get(key);
+      row.last = at;
+      row.roles.add(use.role);
+      if (!row.marks.has(at)) row.marks.set(at, none());
+      if (!row.steps.has(node.step)) row.steps.set(node.step, { ...none(), first: at });
+      row.steps.get(node.step).last = at;
+      for (const mark of [row.marks.get(at), row.steps.get(node.step)]) {
+        mark.reads ||= use.reads;
+        mark.writes ||= use.writes;
+        mark.roles.add(use.role.replace("_", " "));
+      }
+    }));
+    for (const each of this.movedEach) {
+      for (const [resource, moved] of each) {
+        const row = rows.get(this.resourceKey(resource));
+        if (row) row.moved += movedSum(moved);
+      }
+    }
+    this.made_rows = [...rows.values()];
+    for (const row of this.made_rows) this.markAttachments(row);
+    return this.made_rows;
+  }
+
+  /** Marks where a step waits for an image at a barrier and loads it, at the first of its passes that use it, and where it stores it, at the last. */
+  markAttachments(row) {
+    if (!("format" in row.resource)) return;
+    for (const [at, { first, last }] of row.steps) {
+      const step = this.plan.steps[at];
+      const attachment = step.work.render?.attachments.find((one) => one.image === row.resource.id);
+      row.marks.get(first).barrier = step.image_barriers.some((barrier) => barrier.image === row.resource.id);
+      row.marks.get(first).loads = attachment?.load === "LOAD";
+      row.marks.get(last).stores = attachment?.store === "STORE";
+    }
+  }
+
   /** Whether somebody measured the device's time. */
   timed() { return Boolean(this.times); }
 

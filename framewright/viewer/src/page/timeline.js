@@ -24,7 +24,7 @@ function timelineView(model) {
   if (!model.plan) return tooLarge(model);
   const { steps } = model.plan;
   const lanes = [...new Set(steps.map((step) => step.queue))];
-  const rows = imageRows(model);
+  const rows = model.rows();
   const lanesEnd = LANES_TOP + lanes.length * LANE_HEIGHT;
   const aliveEnd = lanesEnd + ALIVE_HEIGHT + 18;
   let kind = model.timed() ? "ms" : "equal";
@@ -83,20 +83,6 @@ function timelineView(model) {
   group.redraw = box.redraw;
   group.reveal = box.reveal;
   return group;
-}
-
-/** Images and buffers that steps use, with how each step does. */
-function imageRows(model) {
-  const rows = new Map();
-  model.nodes.forEach((node) => node.uses.forEach((use) => {
-    const key = model.resourceKey(use.resource);
-    if (!rows.has(key)) rows.set(key, { key, resource: model.resourceOf(use.resource), steps: new Map() });
-    const mark = rows.get(key).steps.get(node.step) || { reads: false, writes: false };
-    mark.reads ||= use.reads;
-    mark.writes ||= use.writes;
-    rows.get(key).steps.set(node.step, mark);
-  }));
-  return [...rows.values()];
 }
 
 function stepWords(model, at) {
