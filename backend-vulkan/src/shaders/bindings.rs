@@ -394,12 +394,12 @@ pub(super) fn block(module: &IndexedModule<'_>, structure: &Instruction) -> Bloc
     Block { bytes: module.block_bytes(structure_id), members: found }
 }
 
-/// Structures within structures are looked into so deep, and so many members of a block are found: a module's may hold itself, and
-/// may hold many of one that holds many.
+/// How deep structures within structures are followed: in a broken module one may hold itself.
 const STRUCTURE_DEPTH: u32 = 8;
+/// How many members of a block are found: a structure may hold many of one that holds many.
 const MOST_MEMBERS: usize = 16 << 10;
 
-/// The members of a structure, and so deep those of structures in it. `left`: how many may be found.
+/// The members of a structure, and those of structures in it down to `depth`. `left`: how many may still be found.
 fn members(module: &IndexedModule<'_>, structure: &Instruction, depth: u32, left: &mut usize) -> Vec<Member> {
     let Some(structure_id) = structure.result_id else { return Vec::new() };
     let mut found = Vec::new();

@@ -104,7 +104,7 @@ fn an_array_that_is_not_given_is_named_with_its_form_and_arrays_of_structures_ar
     }
 }
 
-/// The check of an HLSL effect with push constants, of which a draw brings so many bytes, with these parameters.
+/// Checks an HLSL effect that has push constants. A draw brings `bytes` of them, the pass gives `params`.
 fn pushed(bytes: u32, params: &str) -> Outcome {
     let text = "struct Object { float4 place; float4 tint; };
 [[vk::push_constant]] ConstantBuffer<Object> object;

@@ -46,7 +46,7 @@ pub struct Spread {
 }
 
 impl LastFrames {
-    /// At most so many frames are kept.
+    /// The number of frames that are kept.
     pub const MOST: usize = 300;
 
     /// Keeps the report of a frame.

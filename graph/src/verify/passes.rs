@@ -141,7 +141,7 @@ impl<'p> Check<'_, 'p> {
         self.buffers(pass, by, SHADERS | Stages::VERTEX_INPUT | Stages::DRAW_INDIRECT);
     }
 
-    /// Counts of draws, each of so many bytes, and their number lie within their buffers as Vulkan demands.
+    /// The commands of indirect draws, and the number of draws, lie within their buffers as Vulkan demands.
     fn indirect(&mut self, pass: &Pass, draws: IndirectDraws, bytes: u32) {
         let IndirectDraws { draws, offset, stride, count } = draws;
         let stride = stride.unwrap_or(bytes);
