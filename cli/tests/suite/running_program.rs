@@ -8,6 +8,7 @@ use std::io::{Read, Write};
 use std::net::TcpStream;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc;
+use std::time::Duration;
 
 /// What a program tells of itself when it ends.
 struct Ended {
@@ -62,7 +63,7 @@ fn lv_1_a_running_program_shows_its_plan_times_and_pictures_and_takes_settings()
     let (Some(mut browser), Some(device)) = (Browser::start(), render::device()) else { return };
     let end = AtomicBool::new(false);
     let (send, url) = mpsc::channel();
-    let (ended, shown) = std::thread::scope(|threads| {
+    let (ended, shown, host) = std::thread::scope(|threads| {
         let ends = Ends(&end);
         let running = threads.spawn(|| program(device, &send, &end).map_err(|error| error.to_string()));
         let url = url.recv().expect("the program is there");
@@ -101,12 +102,18 @@ fn lv_1_a_running_program_shows_its_plan_times_and_pictures_and_takes_settings()
         drop(ends);
         let ended = running.join().expect("no panic").expect("no error");
         assert_eq!(ended.msaa, value);
-        (ended, shown)
+        (ended, shown, host.to_owned())
     });
     let texels: Vec<String> = ended.texels.iter().map(u8::to_string).collect();
     assert!(shown == texels.join(","), "the picture is another one");
     render::silent(device).expect("silent");
-    // The program has let go of its viewer, and the server ends with it. The page says so, and goes on showing what it has.
+    // The program has let go of its viewer, and the server ends with it: its port is free again.
+    let free = (0..600).any(|_| {
+        std::thread::sleep(Duration::from_millis(100));
+        TcpStream::connect(&host).is_err()
+    });
+    assert!(free, "{host} is still served");
+    // The page says so, and goes on showing what it has.
     browser.until("live.bar.status.textContent.startsWith('The server doesn')");
     assert_eq!(browser.count("models.length"), 1);
 }
