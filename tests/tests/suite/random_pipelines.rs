@@ -288,7 +288,9 @@ fn agree_by(driver: Driver, seeds: Range<u64>, more: &[&str]) {
     command.args(["--driver", driver.name(), "--seed", &first, "--count", &count]).args(more);
     let output = command.args(["--write", env!("CARGO_TARGET_TMPDIR")]).output().expect("the command starts");
     let words = [output.stdout, output.stderr].map(|words| String::from_utf8_lossy(&words).into_owned()).concat();
-    let absent = output.status.code() == Some(3) && std::env::var_os("CI").is_none();
+    // Lavapipe 22 claims several views at once, and the test of drivers shows that it doesn't draw them.
+    let refuted = words.contains("it says that it draws several views at once, and a test showed that it doesn't");
+    let absent = output.status.code() == Some(3) && (refuted || std::env::var_os("CI").is_none());
     if absent {
         return eprintln!("skipped: {words}");
     }
