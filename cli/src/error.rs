@@ -140,6 +140,18 @@ pub(crate) enum Error {
     /// Captured pictures have no place but a page.
     #[error("`--capture` puts pictures on a page: add `--format html`")]
     CaptureWithoutPage,
+    /// A compiler in a page has no place but a page.
+    #[error("`--what-if` puts a compiler on a page: add `--format html`")]
+    WhatIfWithoutPage,
+    /// The compiler for pages is missing.
+    #[error(
+        "the compiler that a page carries isn't there: neither `{}`\nhelp: in a checkout .ci/what-if.sh makes it; an archive of a release has it beside the command",
+        places.iter().map(|place| text::path(place)).collect::<Vec<_>>().join("` nor `")
+    )]
+    NoModule { places: Vec<PathBuf> },
+    /// The compiler for pages is something else.
+    #[error("the file what-if.wasm is no compiler for pages\nhelp: in a checkout .ci/what-if.sh makes it anew")]
+    BadModule,
     /// A graph that no picture can hold.
     #[error(
         "a picture of {nodes} passes can't be read: at most {most} are drawn; --format dot or json holds any number"
@@ -406,6 +418,7 @@ impl Error {
             | Error::ProfileIsNoDevice { .. }
             | Error::Lab(LabError::Sweep { .. })
             | Error::CaptureWithoutPage
+            | Error::WhatIfWithoutPage
             | Error::ChoiceForPlan { .. }
             | Error::OwnChoice { .. }
             | Error::OtherSweep { .. }
@@ -429,6 +442,8 @@ impl Error {
             | Error::Print(_)
             | Error::Restart(_)
             | Error::Helper(_)
+            | Error::NoModule { .. }
+            | Error::BadModule
             | Error::Stereo { .. } => Exit::Environment,
         }
     }

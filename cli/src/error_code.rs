@@ -34,7 +34,7 @@ impl Error {
             Error::NothingToExplain { .. } | Error::UnknownCode { .. } => Code::NOTHING_TO_EXPLAIN,
             Error::CustomPass { .. } => Code::CUSTOM_UNKNOWN,
             Error::TooManyNodes { .. } | Error::TooManyPairs { .. } => Code::TOO_MANY,
-            Error::CaptureWithoutPage | Error::ChoiceForPlan { .. } | Error::OwnChoice { .. } => Code::OPTIONS,
+            Error::CaptureWithoutPage | Error::WhatIfWithoutPage | Error::ChoiceForPlan { .. } | Error::OwnChoice { .. } => Code::OPTIONS,
             Error::OtherResults { .. }
             | Error::ReadAndWritten { .. }
             | Error::WrittenTwice { .. }
@@ -42,6 +42,7 @@ impl Error {
             Error::NotFloats { .. } | Error::NoPicture { .. } => Code::NO_PICTURE,
             Error::NoOutput { .. } => Code::UNKNOWN_OUTPUT,
             Error::Restart(_) | Error::Helper(_) => Code::OWN_PROCESS,
+            Error::NoModule { .. } | Error::BadModule => Code::NO_MODULE,
             Error::Interrupted { .. } | Error::InterruptedMeasuring { .. } | Error::InterruptedWriting { .. } => {
                 Code::INTERRUPTED
             }

@@ -66,6 +66,6 @@ pub use framewright_vulkan::{
     ShaderCompilers, ShaderLibrary, Submission, Surface, Swapchain, SwapchainOptions, Texels, Texture,
 };
 pub use options::RendererOptions;
-pub use pipeline::{Pipeline, PlannedFrame};
+pub use pipeline::{FileLinks, Pipeline, PlannedFrame};
 pub use renderer::{Change, PreparedFrame, Renderer};
 pub use scene_renderer::{SceneRenderer, check_cameras};

@@ -5,7 +5,7 @@ use crate::choices::Choices;
 use crate::error::Error;
 use crate::files::{self, PipelineFile};
 use crate::options::RendererOptions;
-use framewright_graph::base::{Diagnostic, FilePath, ReadFiles, Sources};
+use framewright_graph::base::{Diagnostic, FilePath, ReadFiles, SourceFile, Sources};
 use framewright_graph::compile::{self, Compiler, Options, heap_size};
 use framewright_graph::device::{MemoryProvider, Profile};
 use framewright_graph::expand::{self, Expander, Inputs};
@@ -32,6 +32,8 @@ pub struct Pipeline {
     pub assets: Assets,
     /// The paths of the pictures that it names.
     pub pictures: BTreeSet<Arc<str>>,
+    /// What its files led to.
+    pub links: FileLinks,
     settings: Vec<SettingsFile>,
     /// What frames have in common.
     expander: Expander,
@@ -42,6 +44,18 @@ impl fmt::Debug for Pipeline {
     fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
         to.debug_struct("Pipeline").field("document", &self.document).finish_non_exhaustive()
     }
+}
+
+/// What the files of a pipeline led to: with its sources enough to read it anew where there is no disk.
+#[derive(Debug, Clone, Default)]
+#[non_exhaustive]
+pub struct FileLinks {
+    /// The extensions that the program applied to it, in their order.
+    pub extensions: Vec<FilePath>,
+    /// Paths of other files: the file in which a path stands, the path, and the file that it led to.
+    pub paths: Vec<(FilePath, String, FilePath)>,
+    /// Pictures, with what is known of each.
+    pub pictures: Vec<(TextureFile, TextureInfo)>,
 }
 
 /// Where a pipeline comes from.
@@ -81,16 +95,21 @@ struct NamedFiles<'t> {
     textures: &'t mut TextureFiles,
     /// The paths of pictures that are named.
     pictures: BTreeSet<Arc<str>>,
+    links: FileLinks,
 }
 
 impl Files for NamedFiles<'_> {
     fn read(&mut self, from: &FilePath, path: &str) -> Result<FoundFile, ReadFailure> {
-        self.files.read(from, path)
+        let found = self.files.read(from, path)?;
+        self.links.paths.push((from.clone(), path.to_owned(), found.relative.clone()));
+        Ok(found)
     }
 
     fn picture(&mut self, file: &TextureFile) -> Result<TextureInfo, TextureProblem> {
         self.pictures.insert(file.path.clone());
-        self.textures.info(file)
+        let info = self.textures.info(file)?;
+        self.links.pictures.push((file.clone(), info));
+        Ok(info)
     }
 }
 
@@ -103,10 +122,13 @@ impl PipelineFile {
     pub fn read(self, options: &RendererOptions) -> Result<Pipeline, Error> {
         let read = self.read.clone();
         let mut assets = Assets::new(self.root(), options, &read);
-        let mut named = NamedFiles { files: self.files, textures: &mut assets.textures, pictures: BTreeSet::new() };
+        let extensions = self.extensions.iter().map(|extension| extension.relative.clone()).collect();
+        let links = FileLinks { extensions, ..FileLinks::default() };
+        let pictures = BTreeSet::new();
+        let mut named = NamedFiles { files: self.files, textures: &mut assets.textures, pictures, links };
         let mut sources = Sources::default();
         let document = language::read_extended(&mut sources, &mut named, self.own, self.extensions);
-        let pictures = named.pictures;
+        let NamedFiles { pictures, links, .. } = named;
         let document = document.map_err(|diagnostics| Error::mistakes(&sources, diagnostics))?;
         let (sources, shipped) = (Arc::new(sources), self.shipped);
         let mut pipeline = Pipeline {
@@ -114,6 +136,7 @@ impl PipelineFile {
             sources,
             assets,
             pictures,
+            links,
             settings: Vec::new(),
             shipped,
             expander: Expander::default(),
@@ -147,6 +170,15 @@ impl Pipeline {
     #[must_use]
     pub fn is_shipped(&self) -> bool {
         self.shipped
+    }
+
+    /// The texts of its language, the pipeline first; then those of its settings files.
+    #[must_use]
+    pub fn texts(&self) -> [Vec<&SourceFile>; 2] {
+        let mut files: Vec<&SourceFile> = (0..).map_while(|file| self.sources.file(file)).collect();
+        // They were read last.
+        let settings = files.split_off(files.len().saturating_sub(self.settings.len()));
+        [files, settings]
     }
 
     /// Reads settings files, one after the other.

@@ -141,6 +141,10 @@ pub(crate) struct InspectArguments {
     /// Draw the scene, and put every image after every pass that wrote it on the page. Needs a Vulkan device, whose Plan is shown.
     #[arg(long, requires = "scene", requires = "output", conflicts_with = "device")]
     pub(crate) capture: bool,
+    /// Put a compiler on the page too: there settings, size, device and the text of the pipeline are changed, passes left out, and the
+    /// differences shown.
+    #[arg(long, conflicts_with = "capture")]
+    pub(crate) what_if: bool,
     /// Say the stages and accesses of each barrier too, and the bytes that each step moves.
     #[arg(long)]
     pub(crate) verbose: bool,

@@ -5,6 +5,7 @@ use crate::drawing::captures::{self, Drawing};
 use crate::error::Error;
 use crate::files::inputs::{self, FileRole};
 use crate::files::outputs;
+use crate::planning::what_if::{self, PlannedSubject};
 use crate::planning::{self, device, helper, plan_file};
 use crate::system::{Exit, interrupt, text};
 use framewright_graph::base::ReadFiles;
@@ -39,6 +40,10 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
     if arguments.capture && arguments.format != PlanFormat::Html {
         return Err(Error::CaptureWithoutPage);
     }
+    if arguments.what_if && arguments.format != PlanFormat::Html {
+        return Err(Error::WhatIfWithoutPage);
+    }
+    let module = arguments.what_if.then(what_if::module).transpose()?;
     let drawn_on = if arguments.capture { Some(open(&helper)?) } else { None };
     let profile = match &drawn_on {
         Some(device) => device.profile(),
@@ -64,22 +69,28 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
             }
             _ => Vec::new(),
         };
+        let what_if = module.map(|module| {
+            let draws = planning::draws(&arguments.pipeline, &read)?;
+            let (preset, device) = (arguments.pipeline.preset.as_deref(), (subject.device.as_deref(), &profile));
+            let planned =
+                PlannedSubject { name: &name, preset, choices: &choices, draws: &draws, device, options, plan };
+            what_if::carried(&module, &mut pipeline, &planned)
+        });
+        let what_if = what_if.transpose()?;
         let detail = Detail { verbose: true, ..detail };
         let shown = ShownPlan { name: name.into_owned(), plan, detail, sources: Some(&pipeline.sources), times: None };
-        Ok(framewright_viewer::page(&Page {
-            plans: vec![shown],
-            differences: None,
-            devices: &devices,
-            captures: &captures,
-        })?)
+        let page = Page { plans: vec![shown], differences: None, devices: &devices, captures: &captures };
+        let Some(what_if) = &what_if else { return Ok(framewright_viewer::page(&page)?) };
+        Ok(framewright_viewer::page_with_what_if(&page, what_if)?)
     })?;
     put(arguments, &shown, &read)
 }
 
 /// Prints or writes the Plan in a file, as it is.
 fn inspect_plan(arguments: &InspectArguments, read: &ReadFiles) -> Result<Exit, Error> {
-    let InspectArguments { pipeline, subject, capture, .. } = arguments;
-    plan_file::nothing_chosen(pipeline, subject, capture.then_some("--capture"))?;
+    let InspectArguments { pipeline, subject, capture, what_if, .. } = arguments;
+    let own = capture.then_some("--capture").or(what_if.then_some("--what-if"));
+    plan_file::nothing_chosen(pipeline, subject, own)?;
     read.expect(FileRole::PLAN.recorded, &pipeline.file);
     let spare = || outputs::prepare(arguments.output.as_deref().into_iter(), read);
     spare()?;

@@ -8,6 +8,7 @@ mod other_devices;
 mod pipeline;
 pub(crate) mod plan_file;
 pub(crate) mod totals;
+pub(crate) mod what_if;
 
 pub(crate) use other_devices::on_other_devices;
-pub(crate) use pipeline::{choices, load, load_with, options, planned, precompiled, undrawn};
+pub(crate) use pipeline::{choices, draws, load, load_with, options, planned, precompiled, undrawn};

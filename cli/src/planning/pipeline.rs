@@ -50,7 +50,10 @@ fn compilers(arguments: &PipelineArguments) -> Result<ShaderCompilers, Error> {
 }
 
 /// What draws bring along: those of the program whose interface the command line names, or of a scene.
-fn draws(arguments: &PipelineArguments, read: &ReadFiles) -> Result<DrawInterfaces, Error> {
+///
+/// # Errors
+/// If the interface is wrong.
+pub(crate) fn draws(arguments: &PipelineArguments, read: &ReadFiles) -> Result<DrawInterfaces, Error> {
     let Some(path) = arguments.interface.as_deref() else { return Ok(draw::interfaces()) };
     let text = inputs::text(FileRole::INTERFACE, path, shader::LARGEST_INTERFACE, read)?;
     let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();

@@ -27,16 +27,31 @@ pub struct Template<'t> {
 /// # Errors
 /// If the data has no JSON form.
 pub fn page(template: &Template<'_>, data: &impl Serialize) -> serde_json::Result<String> {
+    page_allowing(template, ["", ""], data)
+}
+
+/// The page around `data`, whose script runs WebAssembly that the data holds, in workers of its own.
+///
+/// # Errors
+/// If the data has no JSON form.
+pub(crate) fn page_of_modules(template: &Template<'_>, data: &impl Serialize) -> serde_json::Result<String> {
+    page_allowing(template, [" 'wasm-unsafe-eval'", "; worker-src blob:"], data)
+}
+
+/// The page around `data`. `more`: what the policy allows further, of scripts and in directives of its own.
+fn page_allowing(template: &Template<'_>, more: [&str; 2], data: &impl Serialize) -> serde_json::Result<String> {
     // A text that ends the element can't be in it.
     let data = serde_json::to_string(data)?.replace('<', "\\u003c");
     let digest = |text: &str| BASE64_STANDARD.encode(Sha256::digest(text.as_bytes()));
     let policy = format!(
-        "default-src 'none'; script-src 'sha256-{}'; style-src 'sha256-{}'; img-src {}; connect-src {}; base-uri 'none'; \
-         form-action 'none'",
+        "default-src 'none'; script-src 'sha256-{}'{}; style-src 'sha256-{}'; img-src {}; connect-src {}; base-uri 'none'; \
+         form-action 'none'{}",
         digest(template.script),
+        more[0],
         digest(template.style),
         template.images,
-        template.asked
+        template.asked,
+        more[1]
     );
     let parts =
         [("/*policy*/", &*policy), ("/*style*/", template.style), ("/*script*/", template.script), ("/*data*/", &data)];

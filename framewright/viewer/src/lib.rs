@@ -11,6 +11,7 @@ mod page;
 mod program;
 mod server;
 mod times;
+mod what_if;
 mod xml;
 
 pub use graph::{dot, mermaid, svg};
@@ -18,4 +19,5 @@ pub use page::{DeviceDifferences, MOST_NODES, Page, ShownPlan, Thumbnail, live_p
 pub use program::Viewer;
 pub use server::{Choice, Controls, LiveState, Output, PublishedState, Server, SourceText};
 pub use times::{LastFrames, Spread, StepTimes, Times};
+pub use what_if::{BadModule, WhatIf, page_with_what_if};
 pub use xml::escaped as escape_xml;

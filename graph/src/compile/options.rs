@@ -1,7 +1,9 @@
 //! Switches of the compiler.
 
+use serde::{Deserialize, Serialize};
+
 /// Switches of the compiler that never change the meaning of a frame.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Options {
     /// Whether transient images share memory.
     pub alias: bool,
@@ -20,7 +22,7 @@ pub struct Options {
 }
 
 /// Which of the valid orders is taken.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Order {
     /// That of the file.
     File,

@@ -14,7 +14,7 @@ macro_rules! limits {
         }
 
         /// One of the limits.
-        #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
         pub enum Limit {
             $($(#[doc = $doc])* $limit,)*
         }

@@ -2,10 +2,12 @@
 
 use super::{Limit, Limits};
 use crate::vulkan::VertexFormat;
-use std::sync::Arc;
+use serde::{Deserialize, Deserializer, Serialize};
+use std::collections::BTreeSet;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// Something that not every device has or allows.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Need {
     /// What it is.
     pub kind: NeedKind,
@@ -14,14 +16,16 @@ pub struct Need {
 }
 
 /// A thing that not every device has or allows.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub enum NeedKind {
     /// A feature, by Vulkan's name, and what it is needed for.
     Feature {
         /// Vulkan's name.
-        name: &'static str,
+        #[serde(deserialize_with = "lasting")]
+        name: Word,
         /// What of the shader needs it, in words: `an element of an array`.
-        what: &'static str,
+        #[serde(deserialize_with = "lasting")]
+        what: Word,
     },
     /// More than every device allows.
     Limit {
@@ -41,6 +45,21 @@ pub enum NeedKind {
     },
     /// The validator of SPIR-V doesn't know a word, so nothing says whether the shader is valid: its message.
     Unjudged(Arc<str>),
+}
+
+/// A word that lasts as long as the program. As a reference it would be borrowed from the text that is read.
+type Word = &'static str;
+
+/// Reads such a word. Each is kept once, and there are few.
+fn lasting<'de, D: Deserializer<'de>>(from: D) -> Result<Word, D::Error> {
+    static WORDS: Mutex<BTreeSet<Word>> = Mutex::new(BTreeSet::new());
+    let word = String::deserialize(from)?;
+    let mut words = WORDS.lock().unwrap_or_else(PoisonError::into_inner);
+    Ok(words.get(&*word).copied().unwrap_or_else(|| {
+        let word = &*word.leak();
+        words.insert(word);
+        word
+    }))
 }
 
 /// What a device has, for [`Need::unmet`].

@@ -42,7 +42,7 @@ pub enum ColorSpace {
 }
 
 /// The properties of a texture that are known before its texels are read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TextureInfo {
     /// Width, height and depth in texels. The depth of a picture is 1.
     pub extent: [u32; 3],

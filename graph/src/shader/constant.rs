@@ -2,9 +2,10 @@
 
 use super::constant_name;
 use crate::frame::ParamValue;
+use serde::{Deserialize, Serialize};
 
 /// A specialization constant of a shader.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ShaderConstant {
     /// Its name; `constant 7` if it has none.
     pub name: String,
@@ -23,7 +24,7 @@ impl ShaderConstant {
 }
 
 /// The value that a pass gives a specialization constant: a truth value or a number.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum ConstantValue {
     /// A truth value.
     Bool(bool),

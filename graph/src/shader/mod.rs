@@ -28,6 +28,7 @@ use crate::base::{FilePath, OutsideChoice, Quote};
 use crate::device::Need;
 use crate::frame::{Draw, Eye, EyeForm, ParamValue};
 use crate::vulkan::{Component, Format, ImageShape, Stages};
+use serde::{Deserialize, Serialize};
 use std::collections::HashSet;
 use std::fmt;
 use std::sync::Arc;
@@ -56,7 +57,7 @@ pub use shader_name::{FileLanguage, LanguageFacts, ShaderName, StageName};
 pub use vertex_layout::{LayoutFault, LocationLayout, VertexInput, VertexLayout};
 
 /// Everything that a shader (all its stages together) uses.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct ShaderInterface {
     /// Resources by set and binding.
     pub bindings: Vec<Binding>,
@@ -118,7 +119,7 @@ pub struct ShaderInterface {
 pub const MOST_PARTS: usize = 8;
 
 /// A part of a shader that doesn't follow a turned picture; functions in shaders/include/rotation.glsl follow it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum UnturnedPart {
     /// It places vertices in its vertex stage.
     Vertices,
@@ -135,7 +136,7 @@ pub const PARAMS: &str = "params";
 pub const BINDINGS: u32 = 256;
 
 /// One resource.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Binding {
     /// Descriptor set.
     pub set: u32,
@@ -156,7 +157,7 @@ pub struct Binding {
 }
 
 /// Kind and shape of a resource.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum BindingKind {
     /// A sampled image, with its sampler or, where the binding is separate, without.
     SampledImage(ImageShape),
@@ -374,7 +375,7 @@ impl BindingKind {
 }
 
 /// A resource that no pass can give.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub struct UnbindableResource {
     /// The name in messages: `a texel buffer`.
     pub what: String,
@@ -385,7 +386,7 @@ pub struct UnbindableResource {
 }
 
 /// A uniform block.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Block {
     /// Bytes it takes (std140).
     pub bytes: u32,
@@ -394,7 +395,7 @@ pub struct Block {
 }
 
 /// A member of a block.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Member {
     /// Name.
     pub name: String,
@@ -433,7 +434,7 @@ impl Member {
 }
 
 /// How a matrix lies in a block.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct MatrixLayout {
     /// Bytes from column to column, or from row to row if rows follow each other.
     pub stride: u32,
@@ -442,7 +443,7 @@ pub struct MatrixLayout {
 }
 
 /// A colour output.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FragmentOutput {
     /// Location.
     pub location: u32,
@@ -455,7 +456,7 @@ pub struct FragmentOutput {
 }
 
 /// An output of a fragment stage that isn't set on every path. Vulkan leaves its value undefined there.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct UnsetOutput {
     /// Its location; `None`: it is the depth.
     pub location: Option<u32>,
@@ -544,7 +545,7 @@ impl fmt::Display for ShaderMessage {
 }
 
 /// How a shader is compiled for a pass: the values of the macros that depend on the pass.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct Variant {
     /// The value of the macro `TEXTURE_NAME`, by the shader's names of sampled images: GLSL's type of such an image. Names
     /// that are missing here are two-dimensional images of floating point, so that mistakes in a pass can be told from its
@@ -608,7 +609,7 @@ impl Variant {
 }
 
 /// How the stages of a shader learn which eye they draw for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum EyeSource {
     /// They draw for this eye only.
     One(Eye),

@@ -1,5 +1,6 @@
 //! Names by place, for what has no name in SPIR-V: `binding 3`, `offset 16`. No name of GLSL or HLSL has a space.
 
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 /// The set whose bindings belong to the pass: its sampled and storage images, its buffers, and one block of parameters.
@@ -7,7 +8,7 @@ use std::sync::Arc;
 pub const PASS_SET: u32 = 0;
 
 /// The names by which a pass gives things to SPIR-V, which may call them otherwise, or have no names.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct GivenNames {
     /// Names of images and buffers.
     pub bindings: Vec<Arc<str>>,

@@ -3,6 +3,7 @@
 use super::binding_name;
 use crate::device::{Limit, Need, NeedKind};
 use crate::vulkan::Stages;
+use serde::{Deserialize, Serialize};
 
 /// A descriptor set that the program makes and binds itself, such as a table of all textures.
 ///
@@ -48,7 +49,7 @@ pub struct BindingFlags {
 macro_rules! descriptor_types {
     ($($(#[doc = $doc:literal])* $name:ident, $words:literal, $updated:expr;)*) => {
         /// The type of a descriptor: `VkDescriptorType`.
-        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
         pub enum DescriptorType {
             $($(#[doc = $doc])* $name,)*
         }
@@ -111,7 +112,7 @@ descriptor_types! {
 const SAMPLED_UPDATED: &str = "descriptorBindingSampledImageUpdateAfterBind";
 
 /// Something in a program's set that a shader reads.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ProgramResource {
     /// Its set.
     pub set: u32,

@@ -1,6 +1,7 @@
 //! Push constants of a draw source's draws: the bytes that it sets, and the blocks that shaders read.
 
 use crate::vulkan::Stages;
+use serde::{Deserialize, Serialize};
 
 /// Bytes of push constants that some stages see (`VkPushConstantRange`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -14,7 +15,7 @@ pub struct PushConstants {
 }
 
 /// A block of push constants that a stage reads.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PushedBlock {
     /// Its name in the shader.
     pub name: String,

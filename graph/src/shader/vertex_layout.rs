@@ -1,9 +1,10 @@
 //! Vertex attributes as shaders declare them, and how a vertex lies in the buffers of a pass.
 
 use crate::vulkan::Component;
+use serde::{Deserialize, Serialize};
 
 /// A vertex attribute.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct VertexInput {
     /// Location; of a matrix or an array the first one.
     pub location: u32,

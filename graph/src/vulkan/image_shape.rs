@@ -37,7 +37,7 @@ pub enum Dimension {
 }
 
 /// The type of an image's component in a shader.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Component {
     /// Floating point (UNORM and SRGB formats too).
     Float,

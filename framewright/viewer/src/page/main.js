@@ -7,6 +7,8 @@ function viewsOf(data) {
     data.live ? alone("live", "Live", liveView) : null,
     data.differences ? alone("differences", "Differences", comparedView) : null,
     { name: "overview", title: "Overview", make: overviewView },
+    // It stays itself while other Plans are shown.
+    data.what_if ? whatIf.view ??= alone("what-if", "What if", whatIfView) : null,
     { name: "graph", title: "Graph", make: graphView },
     { name: "timeline", title: "Timeline", make: timelineView },
     { name: "grid", title: "Passes × images", make: gridView },
@@ -86,7 +88,7 @@ function find(words) {
 
 function keyPressed(event) {
   const input = document.getElementById("find");
-  if (event.ctrlKey || event.metaKey || event.altKey) return;
+  if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest?.("textarea")) return;
   if (event.key === "Escape") {
     input.value = "";
     find("");
@@ -138,10 +140,12 @@ function showData(data) {
   document.getElementById("title").replaceChildren(visible(names.join("  |  ")));
   for (const view of VIEWS) {
     view.tab = element("button", { type: "button", role: "tab", id: "tab-" + view.name, "aria-controls": "view-" + view.name, onclick: () => { showView(view.name); writeHash(); } }, view.title);
-    view.panel = element("div", { role: "tabpanel", id: "view-" + view.name, class: "view-panel", "aria-labelledby": "tab-" + view.name, hidden: true });
+    view.panel ??= element("div", { role: "tabpanel", id: "view-" + view.name, class: "view-panel", "aria-labelledby": "tab-" + view.name, hidden: true });
   }
   document.getElementById("tabs").replaceChildren(...VIEWS.map((view) => view.tab));
-  document.getElementById("views").replaceChildren(...VIEWS.map((view) => view.panel));
+  const room = document.getElementById("views");
+  [...room.children].filter((panel) => !VIEWS.some((view) => view.panel === panel)).forEach((panel) => panel.remove());
+  room.append(...VIEWS.map((view) => view.panel).filter((panel) => !panel.isConnected));
   readHash();
   document.querySelectorAll("main, .view-panel:not([hidden]) .scroller").forEach((box, at) => { if (places[at]) [box.scrollLeft, box.scrollTop] = places[at]; });
 }
@@ -153,6 +157,7 @@ function start() {
   addEventListener("popstate", readHash);
   addEventListener("beforeprint", () => { printing = true; VIEWS.forEach((view) => { makeView(view); view.parts.forEach((part) => part.redraw?.()); }); });
   addEventListener("afterprint", () => { printing = false; showView(state.view); });
+  whatIf.page = DATA;
   showData(DATA);
   // The first address names its view, so that Back leads to it.
   if (location.hash === "") writeHash();

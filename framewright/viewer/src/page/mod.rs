@@ -1,21 +1,17 @@
 //! A Plan, or two, as one HTML page that needs nothing else, not even a network.
 
-mod summary;
 mod thumbnail;
 
+pub use framewright_what_if::MOST_NODES;
 pub use thumbnail::Thumbnail;
 
 use crate::html::{self, Template};
 use crate::times::Times;
 use framewright_graph::base::Sources;
-use framewright_graph::dataflow::{Dataflow, Edge, Node};
 use framewright_graph::difference::Differences;
-use framewright_graph::hints::{Hint, hints};
-use framewright_graph::plan::{Detail, ImageId, MovedBytes, Outline, Plan, Resource, Step};
+use framewright_graph::plan::{Detail, Plan};
+use framewright_what_if::PlanView;
 use serde::Serialize;
-
-/// A graph of more nodes than this isn't laid out: nobody could read the picture, and a browser could hardly hold it.
-pub const MOST_NODES: usize = 3000;
 
 const TEMPLATE: Template<'_> = Template {
     page: include_str!("page.html"),
@@ -38,6 +34,7 @@ const TEMPLATE: Template<'_> = Template {
         include_str!("pictures.js"),
         include_str!("details.js"),
         include_str!("live.js"),
+        include_str!("what_if.js"),
         include_str!("main.js"),
     ),
     // Captured pictures lie beside the page, wherever that is.
@@ -93,35 +90,17 @@ struct Data<'a> {
 
 #[derive(Serialize)]
 struct PlanData<'a> {
-    name: &'a str,
-    sources: Vec<SourceText<'a>>,
-    outline: Outline,
-    hints: Vec<Hint>,
-    times: Option<&'a Times>,
     #[serde(flatten)]
-    body: Body<'a>,
+    view: PlanView<'a>,
+    times: Option<&'a Times>,
 }
 
-/// The views' data.
+/// The data of a page whose Plan is compiled anew in the page.
 #[derive(Serialize)]
-#[serde(rename_all = "snake_case")]
-enum Body<'a> {
-    /// All of it.
-    Whole {
-        plan: &'a Plan,
-        nodes: Vec<Node>,
-        edges: Vec<Edge>,
-        moved: Vec<Vec<(Resource, MovedBytes)>>,
-        on_chip: Vec<Vec<(ImageId, u64)>>,
-    },
-    /// Nothing but the outline, which is shortened: the Plan is too large to be looked at node by node.
-    Summary { steps: usize, most: usize },
-}
-
-#[derive(Serialize)]
-struct SourceText<'a> {
-    name: &'a str,
-    text: &'a str,
+struct WhatIfData<'a, W> {
+    #[serde(flatten)]
+    data: Data<'a>,
+    what_if: &'a W,
 }
 
 /// The page.
@@ -130,6 +109,14 @@ struct SourceText<'a> {
 /// If a Plan has no JSON form.
 pub fn page(page: &Page<'_>) -> serde_json::Result<String> {
     html::page(&TEMPLATE, &data(page))
+}
+
+/// The page, with what it compiles the pipeline anew by.
+///
+/// # Errors
+/// If a Plan has no JSON form.
+pub(crate) fn page_of_compiler(page: &Page<'_>, what_if: &impl Serialize) -> serde_json::Result<String> {
+    html::page_of_modules(&TEMPLATE, &WhatIfData { data: data(page), what_if })
 }
 
 /// The page that asks its server for its data, again and again.
@@ -157,29 +144,5 @@ fn data<'a>(page: &'a Page<'a>) -> Data<'a> {
 
 fn plan_data<'a>(shown: &'a ShownPlan<'a>) -> PlanData<'a> {
     let ShownPlan { name, plan, detail, sources, times } = shown;
-    let flow = Dataflow::of(plan);
-    let outline = plan.outline(*detail);
-    let files = sources.iter().flat_map(|sources| (0..).map_while(|file| sources.file(file)));
-    let mut data = PlanData {
-        name,
-        sources: files.map(|file| SourceText { name: &file.relative, text: &file.text }).collect(),
-        outline,
-        hints: hints(plan),
-        times: *times,
-        body: Body::Summary { steps: plan.steps.len(), most: MOST_NODES },
-    };
-    if flow.nodes.len() > MOST_NODES {
-        data.outline = summary::shortened(plan, data.outline);
-        data.sources.clear();
-        return data;
-    }
-    let moved = plan.steps.iter().map(|step| moved(plan, step)).collect();
-    let on_chip = plan.steps.iter().map(|step| plan.on_chip_of_each(step)).collect();
-    data.body = Body::Whole { plan, nodes: flow.nodes, edges: flow.edges, moved, on_chip };
-    data
-}
-
-/// The bytes that a step moves, image by image, without those of which there are none.
-fn moved(plan: &Plan, step: &Step) -> Vec<(Resource, MovedBytes)> {
-    plan.moved_of_each(step).into_iter().filter(|(_, moved)| moved.sum() > 0).collect()
+    PlanData { view: PlanView::of(name, plan, *detail, *sources), times: *times }
 }

@@ -59,4 +59,11 @@ room! {
     /// `FRAMEWRIGHT_SLANG_COMPILER`. It isn't there, took too long, failed without a word, wrote no SPIR-V of version 1.6 or before, or
     /// lacks a library of its own. Where slangc lacks one, try `slangc -O0`, which calls none.
     SHADER_COMPILER = 1310,
+
+    /// The compiler that a page carries is missing.
+    ///
+    /// A page that `inspect --what-if` makes carries the compiler, so that it works in the browser. In a checkout `.ci/what-if.sh` makes
+    /// it; the archive of a release has it beside the command, as `what-if.wasm`. A file of that name that is something else is this
+    /// mistake too.
+    NO_MODULE = 1311,
 }

@@ -1,11 +1,12 @@
 //! Facts of a scene that pipeline files may ask for: one table of names, types, values and meanings.
 
+use serde::{Deserialize, Serialize};
 use std::fmt;
 
 /// Facts of a scene, named `scene.…` in pipeline files.
 ///
 /// They say what a scene can show from any place and in any direction, so a camera may move without a new Plan.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Facts {
     /// See [`Fact::HasOpaque`].
     pub has_opaque: bool,
