@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Packs what a user of the command needs: the command, shaders, pipelines, scenes, docs and licences, as
+# Packs what a user of the command needs: the command, the compiler for its pages, shaders, pipelines, scenes, docs and licences, as
 # framewright-VERSION-TARGET.tar.xz. The command needs nothing of the archive but itself: it may be moved anywhere alone.
 #
 # usage: .ci/release.sh [DIR]                  builds the command for release, which takes minutes; DIR is target/archives by default
@@ -25,6 +25,9 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 target=$(rustc --version --verbose | sed -n 's/^host: //p')
 package=$(cargo pkgid --locked --offline --package framewright-cli)
 name=framewright-${package##*[@#]}-$target
+# Tests pack the one that they use.
+module=target/what-if.wasm
+[ -n "$command" ] && [ -r "$module" ] || .ci/what-if.sh >/dev/null
 if [ -z "$command" ]; then
     . .ci/packages.sh
     need_rust
@@ -41,6 +44,7 @@ trap 'rm -r "$kept"' EXIT
 packed=$kept/$name
 mkdir "$packed"
 install -D --mode 755 "$command" "$packed/framewright"
+install --mode 644 "$module" "$packed/what-if.wasm"
 git ls-files -z README.md CHANGELOG.md LICENSE-MIT LICENSE-APACHE shaders examples docs |
     xargs --null cp --parents --no-dereference --target-directory "$packed"
 

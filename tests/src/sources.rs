@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 /// The folders of sources that are no tests.
-pub const FOLDERS: [&str; 8] = [
+pub const FOLDERS: [&str; 9] = [
     "graph/src",
     "backend-vulkan/src",
     "passes/src",
@@ -15,6 +15,7 @@ pub const FOLDERS: [&str; 8] = [
     "framewright/c/src",
     "framewright/lab/src",
     "framewright/viewer/src",
+    "framewright/viewer/what-if/src",
     "cli/src",
 ];
 

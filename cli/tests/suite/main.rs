@@ -72,6 +72,7 @@ mod textures;
 mod variants;
 mod views;
 mod what_devices_allow;
+mod what_if;
 mod what_shaders_need;
 mod window;
 mod window_list;

@@ -99,6 +99,7 @@ fn no_library_names_an_option_of_the_command() {
         "framewright/src",
         "framewright/lab/src",
         "framewright/viewer/src",
+        "framewright/viewer/what-if/src",
     ] {
         let code = code(&repository(library));
         for option in &options {

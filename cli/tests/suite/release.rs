@@ -49,6 +49,9 @@ fn the_same_files_give_the_same_archive_whose_command_works_wherever_it_is_unpac
     };
     run(&unpacked.join("framewright"), &unpacked, &["check", "examples/pipelines/shadows.ron"], &[]).exits(0);
     run(&alone, &place.path("alone"), &["check", "shadows"], &[]).exits(0);
+    // The compiler for pages lies beside the command.
+    let page = ["inspect", "post", "--format", "html", "--what-if", "-o", "post.html"];
+    run(&unpacked.join("framewright"), &place.path("alone"), &page, &[]).exits(0);
     if let Some(variables) = Vulkan::LAVAPIPE.variables() {
         let draw = ["run", "forward", "--scene", "spheres_and_cubes", "--size", "16x9", "-o", "a.png"];
         run(&alone, &place.path("alone"), &draw, &variables).exits(0);

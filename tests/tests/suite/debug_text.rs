@@ -5,7 +5,7 @@ use proc_macro2::{Literal, TokenStream, TokenTree};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-const CRATES: [&str; 8] = [
+const CRATES: [&str; 9] = [
     "graph",
     "backend-vulkan",
     "passes",
@@ -13,6 +13,7 @@ const CRATES: [&str; 8] = [
     "framewright/c",
     "framewright/lab",
     "framewright/viewer",
+    "framewright/viewer/what-if",
     "cli",
 ];
 

@@ -6,7 +6,7 @@ mod rules;
 use std::path::Path;
 
 /// The crates whose rooms have an order.
-const CRATES: [&str; 8] = [
+const CRATES: [&str; 9] = [
     "graph",
     "backend-vulkan",
     "passes",
@@ -14,6 +14,7 @@ const CRATES: [&str; 8] = [
     "framewright/c",
     "framewright/lab",
     "framewright/viewer",
+    "framewright/viewer/what-if",
     "cli",
 ];
 
