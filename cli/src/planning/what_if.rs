@@ -162,7 +162,7 @@ fn tried(subject: &Subject, document: &Document, passes: &[String]) -> Vec<Subje
         devices().map(move |device| SubjectChoices { device, preset: preset.clone(), ..own.clone() })
     });
     let settings = document.settings.iter().flat_map(|setting| {
-        values(&setting.kind).into_iter().map(|value| {
+        values(&setting.kind).into_iter().map(move |value| {
             let set = own.set.iter().cloned().chain([(setting.name.text.to_string(), value)]).collect();
             SubjectChoices { set, ..own.clone() }
         })

@@ -104,6 +104,7 @@ async function begin() {
   whatIf.choices = structuredClone(whatIf.subject.own);
   showChoices();
   showEditor();
+  whatIf.parts.status.textContent = "compiling …";
   const own = await askCompiler(whatIf.subject.own, "view");
   if (own.wrong) return showAnswer(own);
   const { version } = whatIf.page.what_if;
@@ -233,7 +234,7 @@ function showEditor() {
   whatIf.lines = lines;
   whatIf.area = text;
   parts.editor.replaceChildren(
-    subject.files.length > 1 ? labelled("file", selectOf("@file", subject.files.map(({ shown }, at) => [String(at), shown]), String(whatIf.file), (at) => { whatIf.file = Number(at); showEditor(); markLines(whatIf.wrong ?? []); })) : element("p", { class: "faint" }, file.shown),
+    element("div", { class: "controls" }, subject.files.length > 1 ? labelled("file", selectOf("@file", subject.files.map(({ shown }, at) => [String(at), shown]), String(whatIf.file), (at) => { whatIf.file = Number(at); showEditor(); markLines(whatIf.wrong ?? []); })) : element("span", { class: "faint" }, file.shown)),
     element("div", { class: "text" }, lines, text));
 }
 

@@ -73,7 +73,7 @@ fn answered(question: &Question) -> String {
             let own = subject.planned(&subject.own).ok();
             let differences = own.map(|own| Differences::between((&subject.name, &own.plan), (&name, plan)));
             let detail = Detail { verbose: true, ..Detail::default() };
-            let view = PlanView::of(&name, plan, detail, Some(sources));
+            let view = PlanView::of(&name, plan, detail, Some(sources.as_ref()));
             written(Told::View { plan: Box::new(view), differences })
         }
     }

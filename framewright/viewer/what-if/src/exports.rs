@@ -9,7 +9,7 @@ static ANSWER: Mutex<Vec<u8>> = Mutex::new(Vec::new());
 
 /// Room for a question of this many bytes, in UTF-8.
 #[unsafe(no_mangle)]
-pub extern "C" fn room(bytes: usize) -> *mut u8 {
+extern "C" fn room(bytes: usize) -> *mut u8 {
     let mut question = QUESTION.lock().unwrap_or_else(PoisonError::into_inner);
     *question = vec![0; bytes];
     question.as_mut_ptr()
@@ -17,7 +17,7 @@ pub extern "C" fn room(bytes: usize) -> *mut u8 {
 
 /// Answers the question. Returns the bytes of the answer.
 #[unsafe(no_mangle)]
-pub extern "C" fn ask() -> usize {
+extern "C" fn ask() -> usize {
     let question = std::mem::take(&mut *QUESTION.lock().unwrap_or_else(PoisonError::into_inner));
     let told = answer(&String::from_utf8_lossy(&question)).into_bytes();
     let mut answer = ANSWER.lock().unwrap_or_else(PoisonError::into_inner);
@@ -27,6 +27,6 @@ pub extern "C" fn ask() -> usize {
 
 /// Where the answer stands.
 #[unsafe(no_mangle)]
-pub extern "C" fn told() -> *const u8 {
+extern "C" fn told() -> *const u8 {
     ANSWER.lock().unwrap_or_else(PoisonError::into_inner).as_ptr()
 }

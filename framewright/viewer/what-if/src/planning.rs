@@ -163,7 +163,7 @@ fn left_out(passes: &[String]) -> Option<FoundFile> {
     if passes.is_empty() {
         return None;
     }
-    // Text in RON and in JSON is written alike.
+    // Text in RON and in JSON is written alike, but for control characters, which no name has.
     let removed: Vec<String> = passes.iter().map(|pass| format!("Remove(pass: {})", json!(pass))).collect();
     let text = format!("Extension(version: 1, changes: [{}])", removed.join(", "));
     Some(FoundFile { shown: NAME.to_owned(), relative: FilePath::from(NAME), bytes: text.into_bytes() })
