@@ -33,7 +33,8 @@ fn every_file_of_a_test_program_is_a_module_of_it() {
         let entries = folder.read_dir().into_iter().flatten().map(|entry| entry.expect("an entry").path());
         entries.filter(|path| path.is_dir()).collect::<Vec<_>>()
     };
-    let within = ["framewright/c", "framewright/lab", "framewright/viewer", "framewright/viewer/what-if"].map(in_repository);
+    let within =
+        ["framewright/c", "framewright/lab", "framewright/viewer", "framewright/viewer/what-if"].map(in_repository);
     let folders_of_packages = folders(&in_repository("")).into_iter().chain(within);
     let packages = folders_of_packages.filter(|folder| folder.join("Cargo.toml").exists());
     let programs = packages.flat_map(|package| folders(&package.join("tests")));

@@ -166,7 +166,7 @@ function showAnswer({ view, wrong }, ms) {
   const { differences } = view;
   const number = differences ? differences.totals.filter((figure) => figure.a !== figure.b).length + differences.entries.length : 0;
   status.textContent = (isOwn() ? "This is the Plan of the page" : number === 0 ? "Nothing differs from the Plan of the page" : count(number, "difference", "differences") + " from the Plan of the page") + `; compiled in ${milliseconds(ms)}.`;
-  result.replaceChildren(...(number === 0 ? [] : differencesList(models[models.length - 1], differences).flat().filter(Boolean)));
+  result.replaceChildren(...(number === 0 ? [] : [element("p", { class: "hint" }, "A is the Plan of the page, B what is chosen here."), ...differencesList(models[models.length - 1], differences).flat().filter(Boolean)]));
 }
 
 /** A control of a choice: its element, and the text before it. */

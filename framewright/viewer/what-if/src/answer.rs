@@ -33,12 +33,12 @@ struct Answer<'a> {
     /// The version of the compiler.
     version: &'static str,
     #[serde(flatten)]
-    told: Told<'a>,
+    body: AnswerBody<'a>,
 }
 
 #[derive(Serialize)]
 #[serde(rename_all = "snake_case")]
-enum Told<'a> {
+enum AnswerBody<'a> {
     Plan(String),
     View { plan: Box<PlanView<'a>>, differences: Option<Differences> },
     Wrong { mistakes: Value, message: String },
@@ -52,7 +52,9 @@ pub fn answer(question: &str) -> String {
     let read: Result<Question, _> = serde_json::from_str(question);
     match read {
         Ok(question) => answered(&question),
-        Err(problem) => written(wrong(&Refusal::Words(format!("the page asks what its compiler doesn't know: {problem}")))),
+        Err(problem) => {
+            written(wrong(&Refusal::Words(format!("the page asks what its compiler doesn't know: {problem}"))))
+        }
     }
 }
 
@@ -64,7 +66,7 @@ fn answered(question: &Question) -> String {
     };
     match form {
         AnswerForm::Plan => written(match made.plan.to_json() {
-            Ok(text) => Told::Plan(text),
+            Ok(text) => AnswerBody::Plan(text),
             Err(problem) => wrong(&Refusal::Words(problem.to_string())),
         }),
         AnswerForm::View => {
@@ -74,17 +76,17 @@ fn answered(question: &Question) -> String {
             let differences = own.map(|own| Differences::between((&subject.name, &own.plan), (&name, plan)));
             let detail = Detail { verbose: true, ..Detail::default() };
             let view = PlanView::of(&name, plan, detail, Some(sources.as_ref()));
-            written(Told::View { plan: Box::new(view), differences })
+            written(AnswerBody::View { plan: Box::new(view), differences })
         }
     }
 }
 
-fn wrong(refusal: &Refusal) -> Told<'static> {
-    Told::Wrong { mistakes: refusal.data(), message: refusal.message() }
+fn wrong(refusal: &Refusal) -> AnswerBody<'static> {
+    AnswerBody::Wrong { mistakes: refusal.data(), message: refusal.message() }
 }
 
-fn written(told: Told<'_>) -> String {
-    let answer = Answer { version: env!("CARGO_PKG_VERSION"), told };
+fn written(body: AnswerBody<'_>) -> String {
+    let answer = Answer { version: env!("CARGO_PKG_VERSION"), body };
     // Numbers that JSON can't hold are refused before, and nothing else has no JSON form.
     serde_json::to_string(&answer).unwrap_or_default()
 }

@@ -78,18 +78,17 @@ impl Subject {
     ///
     /// # Errors
     /// [`Refusal`] says why there is none.
-    pub fn planned_with(
-        &self,
-        choices: &Choices,
-        shaders: &mut dyn ShaderInterfaces,
-    ) -> Result<SubjectPlan, Refusal> {
+    pub fn planned_with(&self, choices: &Choices, shaders: &mut dyn ShaderInterfaces) -> Result<SubjectPlan, Refusal> {
         if self.format != FORMAT {
-            let words = format!("the page carries a subject in form {}, and its compiler reads form {FORMAT}", self.format);
+            let words =
+                format!("the page carries a subject in form {}, and its compiler reads form {FORMAT}", self.format);
             return Err(Refusal::Words(words));
         }
         let device = self.profile(&choices.device)?;
         let mut files = CarriedFiles::new(self, choices);
-        let Some(own) = self.files.first() else { return Err(Refusal::Words("the page carries no pipeline".to_owned())) };
+        let Some(own) = self.files.first() else {
+            return Err(Refusal::Words("the page carries no pipeline".to_owned()));
+        };
         let extensions = self.extensions.iter().filter_map(|number| self.files.get(*number));
         let extensions = extensions.map(|file| files.found(file)).chain(left_out(&choices.left_out)).collect();
         let (mut sources, own) = (Sources::default(), files.found(own));

@@ -186,6 +186,8 @@ fn missing() -> ShaderProblem {
 
 /// That nothing is known of a shader. Shaders are compiled where pages are made.
 fn uncarried(how: &str) -> ShaderProblem {
-    let what = format!("this page doesn't carry it {how}; shaders are compiled where a page is made: make one with this choice");
+    let what = format!(
+        "this page doesn't carry it {how}; shaders are compiled where a page is made: make one with this choice"
+    );
     ShaderProblem::Machine { what }
 }
