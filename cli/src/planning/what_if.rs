@@ -126,12 +126,12 @@ fn text(file: &SourceFile) -> TextFile {
 
 /// The name of a device in a page, with its profile where that isn't shipped.
 fn device((name, profile): (Option<&OsStr>, &Profile)) -> Result<(String, Vec<NamedProfile>), Error> {
-    let shipped = SHIPPED_PROFILES.iter().map(|(shipped, _)| *shipped);
+    let mut shipped = SHIPPED_PROFILES.iter().map(|(shipped, _)| *shipped);
     let name = match name {
         None => return Ok((shipped.take(1).collect(), Vec::new())),
         Some(name) => name,
     };
-    if let Some(shipped) = shipped.into_iter().find(|shipped| name == OsStr::new(shipped)) {
+    if let Some(shipped) = shipped.find(|shipped| name == OsStr::new(shipped)) {
         return Ok((shipped.to_owned(), Vec::new()));
     }
     let name = name.to_string_lossy().into_owned();
