@@ -235,9 +235,6 @@ fn dark_narrow_and_printed_pages_work() {
     browser.has_no_errors();
 }
 
-/// Texts in sight with too little contrast, in words.
-const CONTRAST: &str = include_str!("testing/contrast.js");
-
 #[test]
 fn lv_10_every_view_has_contrast_in_both_themes_and_fits_from_400_to_2560_pixels() {
     let Some(mut browser) = Browser::start() else { return };
@@ -253,9 +250,8 @@ fn lv_10_every_view_has_contrast_in_both_themes_and_fits_from_400_to_2560_pixels
             for view in browser.ask("VIEWS.map((view) => view.name)").as_array().expect("views").clone() {
                 let view = view.as_str().expect("a name");
                 browser.click(&format!("#tab-{view}"));
-                let faint = browser.ask(CONTRAST);
-                let faint = faint.as_array().expect("a list").iter().map(ToString::to_string);
-                faults.extend(faint.map(|text| format!("{file}, {view}, dark {dark}: {text}")));
+                let faint = browser.faint_texts();
+                faults.extend(faint.iter().map(|text| format!("{file}, {view}, dark {dark}: {text}")));
                 browser.screenshot(&format!("{file}-{view}-{dark}"));
                 for width in [400, 2560] {
                     browser.screen(width, 720, dark);

@@ -123,6 +123,13 @@ impl Browser {
         value.as_str().unwrap_or_else(|| panic!("{expression} is {value}")).to_owned()
     }
 
+    /// Texts in sight that have less contrast than WCAG 2.2 wants at level AA, in words.
+    #[track_caller]
+    pub(crate) fn faint_texts(&mut self) -> Vec<String> {
+        let found = self.ask(include_str!("contrast.js"));
+        found.as_array().expect("a list").iter().map(ToString::to_string).collect()
+    }
+
     /// Presses the mouse in the middle of the first element that a selector finds.
     #[track_caller]
     pub(crate) fn click(&mut self, selector: &str) {
