@@ -30,6 +30,7 @@ mod halves;
 mod helper_process;
 mod hlsl_words;
 mod image_quality;
+mod in_firefox;
 mod included_files;
 mod interrupts;
 mod large;
