@@ -54,6 +54,7 @@ mod rays_and_addresses;
 mod readme;
 mod reference;
 mod release;
+mod reloads;
 mod rotation;
 mod running_program;
 mod scene_notes;
