@@ -1,6 +1,8 @@
 //! What a bound is on, and how much of it each step of a Plan adds.
 
+use framewright_graph::hints::{Hint, HintKind, hints};
 use framewright_graph::plan::{MovedBytes, Plan, Role, Step, Totals};
+use std::borrow::Cow;
 
 /// A quantity that a budget bounds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,6 +21,8 @@ pub(crate) enum Bound {
     ResolvedMib,
     CopiedMib,
     MovedMib,
+    /// Those of a kind, or of all.
+    Hints(Option<HintKind>),
 }
 
 /// Bytes of a MiB.
@@ -26,8 +30,8 @@ const MIB: f64 = (1 << 20) as f64;
 
 impl Bound {
     /// The quantity in words, and its unit.
-    pub(super) fn words(self) -> (&'static str, &'static str) {
-        match self {
+    pub(super) fn words(self) -> (Cow<'static, str>, &'static str) {
+        let (words, unit) = match self {
             Bound::Passes => ("passes", ""),
             Bound::InsertedPasses => ("inserted passes", ""),
             Bound::Scopes => ("rendering scopes", ""),
@@ -42,15 +46,25 @@ impl Bound {
             Bound::ResolvedMib => ("resolved", " MiB"),
             Bound::CopiedMib => ("copied", " MiB"),
             Bound::MovedMib => ("moved", " MiB"),
-        }
+            Bound::Hints(None) => ("hints", ""),
+            Bound::Hints(Some(kind)) => return (format!("hints {}", kind.code()).into(), ""),
+        };
+        (words.into(), unit)
     }
 
     /// All of it in a Plan.
     pub(super) fn of(self, plan: &Plan) -> f64 {
         match self {
             Bound::MemoryMib => plan.totals.placed_bytes as f64 / MIB,
+            Bound::Hints(_) => self.hints(plan).len() as f64,
             _ => plan.steps.iter().map(|step| self.of_step(plan, step)).sum(),
         }
+    }
+
+    /// The hints that it is on, the most bytes first. Other bounds are on none.
+    pub(super) fn hints(self, plan: &Plan) -> Vec<Hint> {
+        let Bound::Hints(kind) = self else { return Vec::new() };
+        hints(plan).into_iter().filter(|hint| kind.is_none_or(|kind| kind == hint.kind)).collect()
     }
 
     /// The step that breaks it: the one that goes beyond `most`, or for memory the first in which most is alive.
@@ -78,7 +92,7 @@ impl Bound {
             Bound::Barriers => f64::from(totals.image_barriers) + f64::from(totals.memory_barriers),
             Bound::BarrierCalls => totals.barrier_calls.into(),
             Bound::Waits => totals.waits.into(),
-            Bound::MemoryMib => 0.0,
+            Bound::MemoryMib | Bound::Hints(_) => 0.0,
             Bound::LoadedMib => loaded as f64 / MIB,
             Bound::StoredMib => stored as f64 / MIB,
             Bound::ResolvedMib => resolved as f64 / MIB,

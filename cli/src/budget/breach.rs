@@ -47,6 +47,16 @@ fn breach(
     let number = |number: f64| if unit.is_empty() { number.to_string() } else { format!("{number:.2}") };
     let [found, most_words] = [found, most].map(number);
     let message = format!("the budget is exceeded: {words} {found}{unit}, and at most {most_words}{unit} are allowed");
+    let told = |place: Option<&Place>, remark: String| match place.and_then(|place| span(sources, place)) {
+        Some(place) => {
+            Diagnostic::new(Code::OVER_BUDGET, place, &*message).remark(remark).label(limit.span, "the limit")
+        }
+        None => Diagnostic::new(Code::OVER_BUDGET, limit.span, &*message).remark(remark),
+    };
+    if let [first, rest @ ..] = &bound.hints(plan)[..] {
+        let remark = rest.iter().fold(first.text.clone(), |all, hint| all + "; " + &hint.text);
+        return told(first.at.as_ref(), remark);
+    }
     let step = bound.broken_by(plan, most);
     let of_step = || flow.nodes.iter().filter(|node| Some(node.step.0 as usize) == step);
     // A resolve that a scope carries is not what its first pass says.
@@ -61,11 +71,7 @@ fn breach(
         remark += &format!(", `{}`", node.name);
         remark.extend(node.because.iter().map(|because| format!(": {because}")));
     }
-    let place = node.and_then(|node| node.at.as_ref()).and_then(|place| span(sources, place));
-    match place {
-        Some(place) => Diagnostic::new(Code::OVER_BUDGET, place, message).remark(remark).label(limit.span, "the limit"),
-        None => Diagnostic::new(Code::OVER_BUDGET, limit.span, message).remark(remark),
-    }
+    told(node.and_then(|node| node.at.as_ref()), remark)
 }
 
 /// A place of a Plan in the texts that it was made of: the rest of its line.

@@ -8,6 +8,7 @@ use crate::planning::device;
 use crate::system::Exit;
 use framewright::Pipeline;
 use framewright_graph::base::{self, Code, Diagnostic, ReadFiles, Span};
+use framewright_graph::hints::HintKind;
 use framewright_graph::language::Document;
 use ron::Options;
 use ron::extensions::Extensions;
@@ -52,6 +53,40 @@ struct LimitEntry {
     resolved_mib: Option<f64>,
     copied_mib: Option<f64>,
     moved_mib: Option<f64>,
+    hints: Option<HintsEntry>,
+}
+
+/// How many hints there may be.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum HintsEntry {
+    Together(u32),
+    /// By the code of their kind.
+    ByKind(BTreeMap<String, u32>),
+}
+
+impl HintsEntry {
+    fn bounds(&self) -> Vec<(Bound, f64)> {
+        match self {
+            HintsEntry::Together(most) => vec![(Bound::Hints(None), f64::from(*most))],
+            HintsEntry::ByKind(kinds) => {
+                let bound = |(code, most): (&String, &u32)| Some((Bound::Hints(Some(kind(code)?)), f64::from(*most)));
+                kinds.iter().filter_map(bound).collect()
+            }
+        }
+    }
+
+    /// The first code that no kind has.
+    fn unknown(&self) -> Option<&str> {
+        match self {
+            HintsEntry::Together(_) => None,
+            HintsEntry::ByKind(kinds) => kinds.keys().map(String::as_str).find(|code| kind(code).is_none()),
+        }
+    }
+}
+
+fn kind(code: &str) -> Option<HintKind> {
+    HintKind::ALL.into_iter().find(|kind| kind.code() == code)
 }
 
 impl LimitEntry {
@@ -75,7 +110,8 @@ impl LimitEntry {
             (Bound::MovedMib, self.moved_mib),
         ];
         let counts = counts.into_iter().filter_map(|(bound, most)| Some((bound, f64::from(most?))));
-        counts.chain(amounts.into_iter().filter_map(|(bound, most)| Some((bound, most?))))
+        let amounts = amounts.into_iter().filter_map(|(bound, most)| Some((bound, most?)));
+        counts.chain(amounts).chain(self.hints.iter().flat_map(HintsEntry::bounds))
     }
 }
 
@@ -141,6 +177,12 @@ fn limit(entry: &LimitEntry, span: Span, pipeline: &Document) -> Result<Limit, D
             }
         };
         settings.push((name.clone(), value));
+    }
+    if let Some(unknown) = entry.hints.as_ref().and_then(HintsEntry::unknown) {
+        let codes: Vec<&str> = HintKind::ALL.iter().map(|kind| kind.code()).collect();
+        let message = format!("there are no hints `{unknown}`");
+        let help = format!("there are {}", codes.join(", "));
+        return Err(Diagnostic::new(Code::BUDGET_LIMIT, span, message).help(help));
     }
     if entry.bounds().next().is_none() {
         return Err(

@@ -17,8 +17,8 @@ const LISTED: usize = 14;
 
 const STYLE: &str = "svg{background:#fff;color:#1c1c1c;font:12px system-ui,sans-serif}\
 text{fill:currentColor}.axis{stroke:currentColor;opacity:.6}.grid{stroke:currentColor;opacity:.12}\
-circle{fill:#8a8a8a;fill-opacity:.7}.front circle{fill:#0a6cc4;fill-opacity:1}polyline{fill:none;stroke:#0a6cc4;stroke-width:1.5}\
-@media (prefers-color-scheme:dark){svg{background:#181818;color:#eee}.front circle{fill:#6cb6ff}polyline{stroke:#6cb6ff}}";
+circle{fill:#8a8a8a;fill-opacity:.7}.front circle{fill:#0a5fb4;fill-opacity:1}polyline{fill:none;stroke:#0a5fb4;stroke-width:1.5}\
+@media (prefers-color-scheme:dark){svg{background:#16181b;color:#e8e8e8}.front circle{fill:#7ab8ff}polyline{stroke:#7ab8ff}}";
 
 /// A row with both figures.
 struct Point {

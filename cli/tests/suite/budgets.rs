@@ -72,6 +72,23 @@ fn limits_are_for_the_variants_and_devices_that_they_name() {
 }
 
 #[test]
+fn lv_4_hints_are_bounded_together_and_by_code() {
+    let place = Place::new();
+    let check = |hints: &str, code: i32| {
+        place.file("budget.ron", format!("Budget(version: 1, limits: [(hints: {hints})])"));
+        place.run(&["check", "deferred", "--budget", "budget.ron"]).exits(code).err
+    };
+    check("5", 0);
+    let all = check("4", 1);
+    assert!(all.contains("the budget is exceeded: hints 5, and at most 4 are allowed [E1503]"), "{all}");
+    assert!(all.contains("deferred.ron:37:16") && all.contains("`shadow` is 64.0 MiB of 105.6 MiB"), "{all}");
+    check("{\"H01\": 1, \"H02\": 2, \"H04\": 2, \"H05\": 0}", 0);
+    let loaded = check("{\"H02\": 2, \"H04\": 1}", 1);
+    assert!(loaded.contains("the budget is exceeded: hints H04 2, and at most 1 are allowed [E1503]"), "{loaded}");
+    assert!(loaded.contains("`color` is stored by the scope of `lighting`") && !loaded.contains("H02"), "{loaded}");
+}
+
+#[test]
 fn a_wrong_budget_is_told_with_its_place() {
     let place = place("");
     for (budget, expected) in [
@@ -87,6 +104,9 @@ fn a_wrong_budget_is_told_with_its_place() {
             "is a number, a text, true or false",
         ),
         ("Budget(version: 1, limits: [(device: \"x\")])", "the limit bounds nothing"),
+        ("Budget(version: 1, limits: [(hints: {})])", "the limit bounds nothing"),
+        ("Budget(version: 1, limits: [(hints: {\"H99\": 1})])", "there are no hints `H99`"),
+        ("Budget(version: 1, limits: [(hints: -1)])", "budget.ron:1:"),
         ("Budget(version: 1, limits: [\n\n(resolves: 1),\n(öl: 1)])", "budget.ron:4:2"),
     ] {
         place.file("budget.ron", budget);

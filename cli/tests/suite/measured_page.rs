@@ -31,6 +31,10 @@ fn the_page_of_a_sweep_shows_its_rows_as_plot_table_and_pictures() {
     let place = Place::new();
     swept(&place);
     browser.open_file(&place.path("b/index.html"), "");
+    for dark in [true, false] {
+        browser.screen(1400, 900, dark);
+        assert_eq!(browser.faint_texts(), Vec::<String>::new(), "dark {dark}");
+    }
     // Rows that failed, or have pixels that aren't finite, are in the table alone.
     assert_eq!(browser.count("document.querySelectorAll('circle').length"), 3);
     assert_eq!(browser.count("document.querySelectorAll('tbody tr').length"), 6);

@@ -236,6 +236,39 @@ fn dark_narrow_and_printed_pages_work() {
 }
 
 #[test]
+fn lv_10_every_view_has_contrast_in_both_themes_and_fits_from_400_to_2560_pixels() {
+    let Some(mut browser) = Browser::start() else { return };
+    let place = Place::new();
+    plan_and_page(&place, &["deferred"]);
+    let difference = ["diff", "deferred", "deferred", "--b", "shadows=false", "--format", "html", "-o", "diff.html"];
+    place.run(&difference).exits(0);
+    let mut faults = Vec::new();
+    for (file, fragment) in [("page.html", "#view=graph&pass=lighting"), ("diff.html", "#view=differences&pass=sky")] {
+        for dark in [false, true] {
+            browser.screen(1280, 720, dark);
+            browser.open_file(&place.path(file), fragment);
+            for view in browser.ask("VIEWS.map((view) => view.name)").as_array().expect("views").clone() {
+                let view = view.as_str().expect("a name");
+                browser.click(&format!("#tab-{view}"));
+                let faint = browser.faint_texts();
+                faults.extend(faint.iter().map(|text| format!("{file}, {view}, dark {dark}: {text}")));
+                browser.screenshot(&format!("{file}-{view}-{dark}"));
+                for width in [400, 2560] {
+                    browser.screen(width, 720, dark);
+                    let over = browser.ask("document.documentElement.scrollWidth - innerWidth").as_i64();
+                    assert!(over.is_some_and(|over| over <= 0), "{file}, {view}: {over:?} of {width} pixels too wide");
+                }
+                browser.screen(1280, 720, dark);
+            }
+            let nested = "document.querySelectorAll(':is(summary, button, a) :is(button, a, input)').length";
+            assert_eq!(browser.count(nested), 0, "what is pressed lies in something that is pressed");
+        }
+    }
+    assert!(faults.is_empty(), "{faults:#?}");
+    browser.has_no_errors();
+}
+
+#[test]
 fn hostile_names_and_texts_do_nothing() {
     let Some(mut browser) = Browser::start() else { return };
     let place = Place::new();

@@ -8,11 +8,14 @@ use base64::prelude::BASE64_STANDARD;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
+/// What all pages look like: colours, type and controls. A page's own style comes after it.
+const LOOK: &str = include_str!("look.css");
+
 /// The parts of a page.
 pub struct Template<'t> {
     /// The page, with `/*policy*/`, `/*style*/`, `/*script*/` and `/*data*/` where those belong.
     pub page: &'t str,
-    /// The style.
+    /// What its style has of its own.
     pub style: &'t str,
     /// The script.
     pub script: &'t str,
@@ -42,19 +45,20 @@ pub(crate) fn page_of_modules(template: &Template<'_>, data: &impl Serialize) ->
 fn page_allowing(template: &Template<'_>, more: [&str; 2], data: &impl Serialize) -> serde_json::Result<String> {
     // A text that ends the element can't be in it.
     let data = serde_json::to_string(data)?.replace('<', "\\u003c");
+    let style = [LOOK, template.style].concat();
     let digest = |text: &str| BASE64_STANDARD.encode(Sha256::digest(text.as_bytes()));
     let policy = format!(
         "default-src 'none'; script-src 'sha256-{}'{}; style-src 'sha256-{}'; img-src {}; connect-src {}; base-uri 'none'; \
          form-action 'none'{}",
         digest(template.script),
         more[0],
-        digest(template.style),
+        digest(&style),
         template.images,
         template.asked,
         more[1]
     );
     let parts =
-        [("/*policy*/", &*policy), ("/*style*/", template.style), ("/*script*/", template.script), ("/*data*/", &data)];
+        [("/*policy*/", &*policy), ("/*style*/", &*style), ("/*script*/", template.script), ("/*data*/", &data)];
     // The data comes last: it may hold anything.
     Ok(parts.into_iter().fold(template.page.to_owned(), |page, (mark, part)| page.replacen(mark, part, 1)))
 }

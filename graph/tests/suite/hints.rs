@@ -53,6 +53,20 @@ fn lv_4_an_image_that_one_pass_reads_stands_out_with_that_pass() {
 }
 
 #[test]
+fn lv_4_an_image_that_several_passes_read_does_not_stand_out_for_one() {
+    let text = r#"Pipeline(version: 1, images: [
+            (name: "big", format: R16G16B16A16_SFLOAT, size: Fixed(2048, 2048)),
+            (name: "half", format: R16G16B16A16_SFLOAT, size: Fixed(1024, 1024)),
+            (name: "screen", format: R8G8B8A8_UNORM, size: Output)],
+         passes: [
+            (name: "draw", draw: FullScreen("sky"), color: ["big"]),
+            (name: "shrink", draw: FullScreen("downsample"), sample: {"source": "big"}, color: ["half"]),
+            (name: "show", draw: FullScreen("tone_map"), sample: {"source": "big"}, params: {"exposure": 1.0, "white_point": 1.0},
+             color: ["screen"])], outputs: ["screen", "half"])"#;
+    assert_eq!(of_kind(&compiled(&right(text, &INPUTS)), HintKind::OneReader), []);
+}
+
+#[test]
 fn lv_4_what_takes_half_of_the_memory_stands_out() {
     let found = of_kind(&pipeline(2048, 512), HintKind::LargestShare);
     assert_eq!(found.len(), 1, "{found:#?}");

@@ -8,6 +8,7 @@ use framewright_graph::difference::Differences;
 use framewright_graph::frame::{
     Blend, Buffer, BufferIndex, Draw, DrawList, Frame, Lifetime, Pass, Resource, StencilState, TransferUse, Work,
 };
+use framewright_graph::hints::{Hint, HintKind, hints};
 use framewright_graph::plan::{self, Plan, Side};
 use framewright_graph::vulkan::Format::{D32_SFLOAT, D32_SFLOAT_S8_UINT, R8G8B8A8_UNORM, R32_UINT};
 use framewright_graph::vulkan::{Aspects, CompareOp, FillValue, Filter, Layout, StencilOp, Subresources};
@@ -89,6 +90,12 @@ fn a_resolve_of_an_array_covers_the_layers_that_are_written_and_read() {
     for more in [false, true] {
         let plan = compiled(&one_layer_read(more)).expect("it is valid");
         assert_eq!(resolved_layers(&plan), [(0, 1)], "{}", plan.tree());
+        // Each resolve that no scope carries stands out (LV-4).
+        let apart: Vec<Hint> = hints(&plan).into_iter().filter(|hint| hint.kind == HintKind::ResolvedApart).collect();
+        assert_eq!(
+            (apart.len(), &*apart[0].text),
+            (1, "`resolve many` is a step of its own: no rendering scope carries it")
+        );
     }
     let plan = compiled(&two_layers(layer(0))).expect("it is valid");
     assert_eq!(resolved_layers(&plan), [(0, 2)], "{}", plan.tree());

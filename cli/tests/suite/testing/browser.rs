@@ -11,7 +11,23 @@ use std::time::{Duration, Instant};
 use tungstenite::{Message, WebSocket};
 
 /// How long a page may take for anything.
-const PATIENCE: Duration = Duration::from_secs(60);
+pub(super) const PATIENCE: Duration = Duration::from_secs(60);
+
+/// The address that a browser says it listens at, after `words`.
+pub(super) fn listening(process: &mut Child, words: &str) -> String {
+    let mut lines = BufReader::new(process.stderr.take().expect("piped")).lines();
+    let address = lines.find_map(|line| Some(line.ok()?.strip_prefix(words)?.to_owned()));
+    std::thread::spawn(move || lines.for_each(drop));
+    address.expect("the browser says where it listens")
+}
+
+/// A connection to the address of a browser.
+pub(super) fn connected(address: &str) -> WebSocket<TcpStream> {
+    let host = address.trim_start_matches("ws://").split('/').next().expect("a host");
+    let stream = TcpStream::connect(host).expect("it listens");
+    stream.set_read_timeout(Some(PATIENCE)).expect("set");
+    tungstenite::client(address, stream).expect("it answers").0
+}
 
 /// A browser with one page. It ends when this is dropped.
 pub(crate) struct Browser {
@@ -50,14 +66,7 @@ impl Browser {
             println!("skipped: no browser (package chromium)");
             return None;
         };
-        let mut lines = BufReader::new(process.stderr.take().expect("piped")).lines();
-        let address = lines.find_map(|line| Some(line.ok()?.strip_prefix("DevTools listening on ")?.to_owned()));
-        let address = address.expect("the browser says where it listens");
-        std::thread::spawn(move || lines.for_each(drop));
-        let host = address.trim_start_matches("ws://").split('/').next().expect("a host");
-        let stream = TcpStream::connect(host).expect("it listens");
-        stream.set_read_timeout(Some(PATIENCE)).expect("set");
-        let (socket, _) = tungstenite::client(&*address, stream).expect("it answers");
+        let socket = connected(&listening(&mut process, "DevTools listening on "));
         let mut browser =
             Browser { process, socket, session: Value::Null, last: 0, errors: Vec::new(), _profile: profile };
         let target = browser.call("Target.createTarget", &json!({"url": "about:blank"}))["targetId"].clone();
@@ -121,6 +130,13 @@ impl Browser {
     pub(crate) fn text(&mut self, expression: &str) -> String {
         let value = self.ask(expression);
         value.as_str().unwrap_or_else(|| panic!("{expression} is {value}")).to_owned()
+    }
+
+    /// Texts in sight that have less contrast than WCAG 2.2 wants at level AA, in words.
+    #[track_caller]
+    pub(crate) fn faint_texts(&mut self) -> Vec<String> {
+        let found = self.ask(include_str!("contrast.js"));
+        found.as_array().expect("a list").iter().map(ToString::to_string).collect()
     }
 
     /// Presses the mouse in the middle of the first element that a selector finds.

@@ -1,6 +1,7 @@
 //! Runs the built `framewright` as a user would, and tells what came of it.
 
 pub(crate) mod browser;
+pub(crate) mod firefox;
 pub(crate) mod results;
 pub(crate) mod server;
 #[cfg(unix)]

@@ -75,10 +75,10 @@ function overviewView(model) {
 }
 
 function overviewParts(model) {
-  const figures = figuresOf(model).map(([figure, unit, parts]) => element("div", { class: "figure" }, element("p", { class: "large" }, figure), element("p", { class: "unit" }, unit), element("p", { class: "faint" }, parts)));
+  const figures = figuresOf(model).map(([figure, unit, parts]) => element("div", { class: "figure card" }, element("p", { class: "large" }, figure), element("p", { class: "unit" }, unit), element("p", { class: "faint" }, parts)));
   const hints = model.hints.length === 0 ? element("p", { class: "faint" }, "Nothing stands out.") : element("ul", { class: "hints" }, model.hints.map((hint) =>
     element("li", {}, element("code", { class: "faint" }, hint.code), " ", withLinks(hint.text), hint.at ? [" ", placeLink(model, hint.at)] : null)));
-  const card = (title, ...inside) => element("section", { class: "card" }, element("h2", {}, title), inside);
+  const card = (title, inside, kind) => element("section", { class: "card" + (kind ? " " + kind : "") }, element("h2", {}, title), inside);
   const { device, extent, settings } = model.plan;
   const chosen = settings.map((setting) => `${setting.name}=${setting.value}`).join(", ");
   return [
@@ -88,6 +88,6 @@ function overviewParts(model) {
       card("Picture", element("div", { class: "picture" }, pictureOf(model))),
       card(model.timed() ? "Slowest steps" : "Steps that move most", dearestSteps(model)),
       card("Largest images and buffers", dearestImages(model)),
-      card("What stands out", hints)),
+      card("What stands out", hints, "standing")),
   ];
 }

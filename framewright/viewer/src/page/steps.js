@@ -5,10 +5,11 @@ function stepsView(model) {
     const at = line.about.step;
     const details = element("details", { "data-key": line.key });
     const moved = model.moved[at] ? movedSum(model.moved[at]) : 0;
-    details.append(element("summary", {}, outlineLine(model, line), " ", element("span", { class: "names" }, model.byKey.get(line.key)?.nodes.map((node) => node.name).join(", ")), " ", link(line.key, "select"), model.timed() ? element("span", { class: "faint" }, " " + milliseconds(model.msOfStep(at))) : null, moved > 0 ? element("span", { class: "faint" }, " moves " + bytes(moved)) : null));
+    details.append(element("summary", {}, visible(line.text.replaceAll("`", "")), " ", element("span", { class: "names" }, model.byKey.get(line.key)?.nodes.map((node) => node.name).join(", ")), model.timed() ? element("span", { class: "faint" }, " " + milliseconds(model.msOfStep(at))) : null, moved > 0 ? element("span", { class: "faint" }, " moves " + bytes(moved)) : null));
     details.addEventListener("toggle", () => {
       if (details.open && details.children.length === 1) {
-        details.append(outlineList(model, line.parts) || element("p", {}, "nothing more"));
+        // Whatever can be pressed lies outside of the summary, which is pressed itself.
+        details.append(element("p", {}, link(line.key, "Select"), ": ", outlineLine(model, line)), outlineList(model, line.parts) || element("p", {}, "nothing more"));
         highlight(details);
       }
     });
