@@ -3,7 +3,7 @@
 mod summary;
 mod thumbnail;
 
-pub use thumbnail::Thumbnail;
+pub use thumbnail::{PictureSize, PictureTexels, Thumbnail};
 
 use crate::html::{self, Template};
 use crate::times::Times;
@@ -19,7 +19,7 @@ pub const MOST_NODES: usize = 3000;
 
 const TEMPLATE: Template<'_> = Template {
     page: include_str!("page.html"),
-    style: include_str!("page.css"),
+    style: concat!(include_str!("page.css"), include_str!("pictures.css")),
     script: concat!(
         include_str!("elements.js"),
         include_str!("model.js"),
@@ -35,7 +35,12 @@ const TEMPLATE: Template<'_> = Template {
         include_str!("lists.js"),
         include_str!("differences.js"),
         include_str!("source.js"),
+        include_str!("asked.js"),
         include_str!("pictures.js"),
+        include_str!("tiny.js"),
+        include_str!("histogram.js"),
+        include_str!("stage.js"),
+        include_str!("large.js"),
         include_str!("details.js"),
         include_str!("live.js"),
         include_str!("main.js"),
