@@ -1,14 +1,16 @@
 //! The live page: a pipeline and a scene that are drawn anew whenever their files or choices change. What is wrong leaves the last good frame.
 
+mod pictures;
+
 use crate::command_line::serving::ServeArguments;
-use crate::drawing::captures::{self, Drawing};
+use crate::drawing::captures::{self, CapturedImage, Drawing};
 use crate::error::Error;
 use crate::files::inputs;
 use crate::planning::{self, totals};
 use crate::system::{Exit, interrupt, text};
 use framewright::{Choices, Pipeline, PlannedFrame, SceneRenderer};
 use framewright_graph::base::{self, Diagnostic, ReadFiles, SourceFile, Sources};
-use framewright_graph::frame::DrawList;
+use framewright_graph::frame::{Capture, CaptureName, DrawList};
 use framewright_graph::plan::Detail;
 use framewright_lab::outputs;
 use framewright_lab::picture::FileFormat;
@@ -23,6 +25,8 @@ use std::hash::{BuildHasher, RandomState};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+/// The longer side of the pictures that a page begins with, in texels.
+const SMALL: u32 = 128;
 /// Files that never rest are read all the same, after this many waits.
 const MOST_WAITS: u32 = 20;
 
@@ -63,6 +67,10 @@ struct GoodFrame {
     outputs: Vec<Output>,
     pictures: Arc<BTreeMap<String, Arc<[u8]>>>,
     took: String,
+    /// What was drawn.
+    planned: Option<PlannedFrame>,
+    /// What was captured of it.
+    captured: BTreeMap<CaptureName, CapturedImage>,
 }
 
 /// What keeps a newer frame from being drawn.
@@ -267,9 +275,12 @@ fn drawn(
         let (made, frames) = ((&planned.plan, &planned.frame), arguments.frames);
         captures::draw(Drawing { frames, ..Drawing::new(device, pipeline, made, scene, options) }, |captured| {
             let address = kept(format!("{}.png", captured.name()), captured.encoded(FileFormat::Png)?);
-            thumbnails.push(captured.thumbnail(address));
+            thumbnails.push(captured.small(SMALL).with_file(address));
             Ok(())
         })?;
+    } else {
+        let to_ask_for = captures::of(&planned.plan, &planned.frame).of_passes;
+        thumbnails.extend(to_ask_for.iter().map(Capture::name).map(Thumbnail::to_ask_for));
     }
     let (plan, times) = (&planned.plan, drawn.times);
     let name = arguments.pipeline.file.to_string_lossy();
@@ -286,6 +297,8 @@ fn drawn(
         outputs,
         pictures: Arc::new(files),
         took: totals::sentence(&plan.totals),
+        planned: Some(planned),
+        captured: BTreeMap::new(),
     })
 }
 

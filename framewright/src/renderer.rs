@@ -1,5 +1,9 @@
 //! A pipeline that is drawn frame after frame, while its settings and files change.
 
+mod captures;
+
+pub use captures::CapturedTexels;
+
 use crate::choices::Choices;
 use crate::error::Error;
 use crate::options::RendererOptions;
@@ -40,6 +44,8 @@ pub struct Renderer {
     changed: bool,
     /// How often it was planned.
     plans: u64,
+    /// What of a frame is captured.
+    capturing: captures::CaptureState,
 }
 
 /// What was chosen.
@@ -120,6 +126,7 @@ impl Renderer {
             drawn: None,
             changed: true,
             plans: 0,
+            capturing: captures::CaptureState::default(),
         })
     }
 
@@ -215,7 +222,7 @@ impl Renderer {
     /// The mistakes of the pipeline, its shaders and choices, or those of making an executor. The last good Plan stays, with the
     /// choices that it was made for; if there is none, the next call tries again.
     pub fn prepare(&mut self) -> Result<PreparedFrame<'_>, Error> {
-        let change = match self.changed {
+        let change = match self.changed || self.capturing.is_asked() {
             true => self.renew(false).inspect_err(|_| self.go_back())?,
             false => Change::Nothing,
         };
@@ -253,13 +260,19 @@ impl Renderer {
         if let Some(drawn) = &self.drawn {
             self.chosen = drawn.chosen.clone();
             // The pipeline has the preset: it was in force before.
-            self.changed = self.pipeline.choose(self.chosen.preset.as_deref()).is_err();
+            self.changed = self.pipeline.choose(self.chosen.preset.as_deref()).is_err() || self.capturing.is_over();
         }
     }
 
     /// Plans, and has an executor of the Plan; a new one if `anew`.
     fn renew(&mut self, anew: bool) -> Result<Change, Error> {
-        let Renderer { device, profile, options, pipeline, chosen, compiler, sets, drawn, plans, .. } = self;
+        if let Some(change) = self.renew_captured()? {
+            return Ok(change);
+        }
+        if !anew && !self.changed {
+            return Ok(Change::Nothing);
+        }
+        let Renderer { device, profile, options, pipeline, chosen, compiler, sets, drawn, plans, capturing, .. } = self;
         let choices = chosen.of(&pipeline.document);
         let plan = pipeline.plan(compiler, device, profile, &choices, &options.compile)?;
         let stays = |drawn: &&mut DrawnPlan| !anew && drawn.executor.differs_beyond_values(plan).is_none();
@@ -277,7 +290,8 @@ impl Renderer {
             *drawn = Some(DrawnPlan { executor, chosen: chosen.clone() });
             Change::Executor { carried_over }
         };
-        *plans += 1;
+        // The Plan of before is no other one.
+        *plans += u64::from(capturing.end(plan) != Some(true));
         self.changed = false;
         Ok(change)
     }

@@ -7,7 +7,7 @@ use crate::commands::{barriers, memory_change, state_change};
 use crate::prepare::{cycle, initial_queue};
 use ash::vk;
 use framewright_graph::plan::{BufferId, FirstContents, ImageId, Plan, Queue, Resource, Role};
-use framewright_graph::vulkan::{State, Subresources};
+use framewright_graph::vulkan::{Layout, State, Subresources};
 use std::sync::Arc;
 
 /// One image or buffer that keeps its contents.
@@ -75,6 +75,28 @@ impl Executor {
         }
         self.prepared.forget();
         Ok(migrated.iter().map(|it| self.plan.resource_name(it.to).to_owned()).collect())
+    }
+
+    /// What would be lost if this executor went on from `before` by [`Executor::migrate_from`]: the names of what persists in both and
+    /// doesn't keep its contents, and of what the program imported, which it would have to import again.
+    #[must_use]
+    pub fn would_lose(&self, before: &Executor) -> Vec<String> {
+        let mut lost = before.imported();
+        if before.initialised {
+            let begins = |to: &Resource| {
+                let name = self.plan.resource_name(*to);
+                let is_kept = match self.plan.role(*to) {
+                    Role::Persistent { before, initial: FirstContents::Value(_), .. } => {
+                        matches!(to, Resource::Buffer(_)) || before.layout != Layout::Undefined
+                    }
+                    Role::Persistent { .. } | Role::Transient(_) | Role::External { .. } => false,
+                };
+                let was = || persistent(&before.plan).any(|it| before.plan.resource_name(it) == name);
+                is_kept && was() && self.goes_on(before, *to).is_none()
+            };
+            lost.extend(persistent(&self.plan).filter(begins).map(|it| self.plan.resource_name(it).to_owned()));
+        }
+        lost
     }
 
     /// Names of the images and buffers of the program's that it has, or that executors before it had. Those that a window shows aren't

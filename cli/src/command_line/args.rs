@@ -128,6 +128,15 @@ pub(crate) enum CheckFormat {
     Github,
 }
 
+/// Where captured pictures go.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum CapturedPictures {
+    /// Small ones on the page.
+    Page,
+    /// These, and whole ones as files beside it.
+    Full,
+}
+
 /// `framewright inspect`.
 #[derive(Debug, Args)]
 pub(crate) struct InspectArguments {
@@ -138,9 +147,11 @@ pub(crate) struct InspectArguments {
     /// Form of the Plan.
     #[arg(long, value_enum, default_value_t)]
     pub(crate) format: PlanFormat,
-    /// Draw the scene, and put every image after every pass that wrote it on the page. Needs a Vulkan device, whose Plan is shown.
-    #[arg(long, requires = "scene", requires = "output", conflicts_with = "device")]
-    pub(crate) capture: bool,
+    /// Draw the scene, and put every image after every pass that wrote it on the page; with `full`, also whole pictures into a folder beside
+    /// it. Needs a Vulkan device, whose Plan is shown.
+    #[arg(long, value_enum, num_args = 0..=1, require_equals = true, default_missing_value = "page")]
+    #[arg(requires = "scene", requires = "output", conflicts_with = "device")]
+    pub(crate) capture: Option<CapturedPictures>,
     /// Put a compiler on the page too: there settings, size, device and the text of the pipeline are changed, passes left out, and the
     /// differences shown.
     #[arg(long, conflicts_with = "capture")]
@@ -389,7 +400,7 @@ impl Command {
     fn pipeline(&self) -> Option<(&PipelineArguments, Option<&'static str>)> {
         Some(match self {
             Command::Check(check) => (&check.pipeline, None),
-            Command::Inspect(inspect) => (&inspect.pipeline, inspect.capture.then_some("`--capture` draws")),
+            Command::Inspect(inspect) => (&inspect.pipeline, inspect.capture.map(|_| "`--capture` draws")),
             Command::Diff(diff) => (&diff.pipeline, None),
             Command::Explain(ExplainArguments::Thing(thing)) => (&thing.pipeline, None),
             Command::Run(run) => (&run.pipeline, Some("`run` draws")),

@@ -1,6 +1,6 @@
 //! `framewright inspect`: the Plan of a pipeline, without a GPU.
 
-use crate::command_line::args::{InspectArguments, PlanFormat};
+use crate::command_line::args::{CapturedPictures, InspectArguments, PlanFormat};
 use crate::drawing::captures::{self, Drawing};
 use crate::error::Error;
 use crate::files::inputs::{self, FileRole};
@@ -17,6 +17,9 @@ use framewright_lab::picture::FileFormat;
 use framewright_viewer::{MOST_NODES, Page, ShownPlan, Thumbnail};
 use framewright_vulkan::{Device, Helper};
 use std::path::Path;
+
+/// The longer side of the pictures on a page, in texels.
+const ON_PAGE: u32 = 256;
 
 /// Prints or writes a Plan.
 ///
@@ -37,14 +40,14 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
     let mut pipeline = planning::load_with(&arguments.pipeline, &read, helper.clone())?;
     let scene = subject.scene.as_deref().map(|file| inputs::scene(file, subject.reading.strict, &read)).transpose()?;
     spare()?;
-    if arguments.capture && arguments.format != PlanFormat::Html {
+    if arguments.capture.is_some() && arguments.format != PlanFormat::Html {
         return Err(Error::CaptureWithoutPage);
     }
     if arguments.what_if && arguments.format != PlanFormat::Html {
         return Err(Error::WhatIfWithoutPage);
     }
     let module = arguments.what_if.then(what_if::module).transpose()?;
-    let drawn_on = if arguments.capture { Some(open(&helper)?) } else { None };
+    let drawn_on = if arguments.capture.is_some() { Some(open(&helper)?) } else { None };
     let profile = match &drawn_on {
         Some(device) => device.profile(),
         None => device::choose(subject.device.as_deref(), &read)?,
@@ -62,10 +65,10 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
     let name = arguments.pipeline.file.to_string_lossy();
     let shown = shown(arguments.format, plan, detail, || {
         let devices = planning::on_other_devices(&mut pipeline, &choices, &options, (&*name, plan))?;
-        let captures = match (&drawn_on, &scene, &arguments.output) {
-            (Some(device), Some(scene), Some(page)) => {
+        let captures = match (&drawn_on, &scene, &arguments.output, arguments.capture) {
+            (Some(device), Some(scene), Some(page), Some(wanted)) => {
                 let (made, pipeline) = ((plan, &planned.frame), &mut pipeline);
-                captured(Drawing::new(device, pipeline, made, scene, options), page, &read)?
+                captured(Drawing::new(device, pipeline, made, scene, options), wanted, page, &read)?
             }
             _ => Vec::new(),
         };
@@ -89,7 +92,7 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
 /// Prints or writes the Plan in a file, as it is.
 fn inspect_plan(arguments: &InspectArguments, read: &ReadFiles) -> Result<Exit, Error> {
     let InspectArguments { pipeline, subject, capture, what_if, .. } = arguments;
-    let own = capture.then_some("--capture").or(what_if.then_some("--what-if"));
+    let own = capture.map(|_| "--capture").or(what_if.then_some("--what-if"));
     plan_file::nothing_chosen(pipeline, subject, own)?;
     read.expect(FileRole::PLAN.recorded, &pipeline.file);
     let spare = || outputs::prepare(arguments.output.as_deref().into_iter(), read);
@@ -148,21 +151,34 @@ fn open(helper: &Helper) -> Result<Device, Error> {
     device::open(device::to_draw_on(None)?, false, helper)
 }
 
-/// Draws every image after every pass that wrote it, and writes the pictures to a folder beside the page.
-fn captured(drawing: Drawing<'_>, page: &Path, read: &ReadFiles) -> Result<Vec<Thumbnail>, Error> {
+/// Draws every image after every pass that wrote it. With `--capture=full` the whole pictures go to a folder beside the page.
+fn captured(
+    drawing: Drawing<'_>,
+    wanted: CapturedPictures,
+    page: &Path,
+    read: &ReadFiles,
+) -> Result<Vec<Thumbnail>, Error> {
     let stem = page.file_stem().unwrap_or(page.as_os_str()).to_string_lossy();
     let name = format!("{stem}.images");
     let folder = page.with_file_name(&name);
-    outputs::make_folder(&folder)?;
+    let full = wanted == CapturedPictures::Full;
+    if full {
+        outputs::make_folder(&folder)?;
+    }
     let mut thumbnails = Vec::new();
     captures::draw(drawing, |captured| {
+        let small = captured.small(ON_PAGE);
+        if !full {
+            thumbnails.push(small);
+            return Ok(());
+        }
         let file = captured.name();
         outputs::write(&[(&folder.join(format!("{file}.png")), &captured.encoded(FileFormat::Png)?)], read)?;
         if FileFormat::OpenExr.holds(captured.format) {
             let exact = captured.encoded(FileFormat::OpenExr)?;
             outputs::write(&[(&folder.join(format!("{file}.exr")), &exact)], read)?;
         }
-        thumbnails.push(captured.thumbnail(format!("{name}/{file}.png")));
+        thumbnails.push(small.with_file(format!("{name}/{file}.png")));
         Ok(())
     })?;
     Ok(thumbnails)

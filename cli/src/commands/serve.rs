@@ -44,6 +44,12 @@ pub(crate) fn serve(arguments: &ServeArguments) -> Result<Exit, Error> {
             if interrupt::asked() {
                 return Ok(Exit::Fine);
             }
+            for question in server.questions().try_iter() {
+                match session.answer(question) {
+                    Err(_) if interrupt::asked() => return Ok(Exit::Fine),
+                    other => other?,
+                }
+            }
             match choices.recv_timeout(EVERY) {
                 Ok(choice) => {
                     session.choose(choice);

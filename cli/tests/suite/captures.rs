@@ -69,7 +69,7 @@ fn thumbnails_on_the_page_are_the_dumped_images() {
     let Some(mut browser) = Browser::start() else { return };
     let place = Place::new();
     place.run_with(&variables, &[&["run", "forward"][..], &SMALL, &["--dump-all", "all"]].concat()).exits(0);
-    let page = ["--format", "html", "--capture", "-o", "page.html"];
+    let page = ["--format", "html", "--capture=full", "-o", "page.html"];
     place.run_with(&variables, &[&["inspect", "forward"][..], &SMALL, &page].concat()).exits(0);
     let images = listed(&place, "all");
     browser.open_file(&place.path("page.html"), "#view=pictures");
@@ -96,17 +96,27 @@ fn thumbnails_on_the_page_are_the_dumped_images() {
             picture.pixels().zip(pixels.chunks_exact(4)).filter(|(a, b)| (0..3).any(|at| a[at].abs_diff(b[at]) > 1));
         assert_eq!((pixels.len(), far.count()), (picture.len() / 3 * 4, 0), "{file}");
     }
-    // The controls redraw, and the whole picture opens.
+    // The controls redraw, and the whole picture opens, with its file beside the page.
     let sum = "[...document.querySelector('figure canvas').getContext('2d').getImageData(0, 0, 96, 54).data].reduce((a, b) => a + b)";
     let before = browser.count(sum);
     browser.ask("(() => { const slider = document.querySelector('input[type=range]'); slider.value = -4; slider.dispatchEvent(new Event('input')); })()");
     let darker = browser.count(sum);
     assert!(darker < before, "{darker} < {before}");
     browser.click("figure button.zoom");
-    browser.until("document.querySelector('dialog img')?.naturalWidth === 96");
+    browser.until("document.querySelector('dialog.large')?.view.picture?.small.join() === '96,54'");
+    let file = browser.text("decodeURI(document.querySelector('dialog a').getAttribute('href'))");
+    assert!(place.path(&file).is_file(), "{file}");
     browser.screenshot("pictures");
     browser.press("Escape");
     browser.has_no_errors();
+    // Without that word there is the page alone, and it has the same texels.
+    let alone = ["--format", "html", "--capture", "-o", "alone.html"];
+    place.run_with(&variables, &[&["inspect", "forward"][..], &SMALL, &alone].concat()).exits(0);
+    assert!(!place.path("alone.images").exists());
+    let texels = "DATA.captures.map((one) => one.data).join()";
+    let full = browser.text(texels);
+    browser.open_file(&place.path("alone.html"), "#view=pictures");
+    assert!(browser.text(texels) == full, "the texels are others");
     place
         .run(&["inspect", "forward", "--capture", "--scene", "courtyard", "-o", "x"])
         .exits(2)

@@ -82,7 +82,8 @@ fn the_steps_of_both_recipes_pass_in_a_right_repository_and_fail_with_a_mistake(
         let second = shell(&place, "bash", &["-e", "-o", "pipefail", "-c", text(line)], &variables);
         assert!(sarif && has(&place, "junit/first.xml") && has(&place, "reports/first.json"));
         assert!(has(&place, "pictures/first.png") && has(&place, "pages/first.html"));
-        assert!(place.path(RESULTS).join("pages/first.images").is_dir(), "the images that the page links to");
+        let page = std::fs::read_to_string(place.path(RESULTS).join("pages/first.html")).expect("written");
+        assert!(page.contains("\"numbers\":\"srgb\",\"data\":\""), "the page holds its pictures");
         [first, second]
     };
     for outcome in run() {

@@ -37,6 +37,7 @@ mod large;
 mod left_as_it_was;
 mod left_out;
 mod licences;
+mod looked_at;
 mod many_machines;
 mod measured_page;
 mod measuring;

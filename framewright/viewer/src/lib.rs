@@ -7,6 +7,7 @@
 
 mod graph;
 pub mod html;
+mod open_questions;
 mod page;
 mod program;
 mod server;
@@ -15,9 +16,14 @@ mod what_if;
 mod xml;
 
 pub use graph::{dot, mermaid, svg};
-pub use page::{DeviceDifferences, MOST_NODES, Page, ShownPlan, Thumbnail, live_page, page, page_data};
+pub use page::{
+    DeviceDifferences, MOST_NODES, Page, PictureSize, PictureTexels, ShownPlan, Thumbnail, live_page, page, page_data,
+};
 pub use program::Viewer;
-pub use server::{Choice, Controls, LiveState, Output, PublishedState, Server, SourceText};
+pub use server::{
+    AskedPicture, AskedPictures, Choice, Controls, LiveState, Output, PictureAnswer, PublishedState, Question, Server,
+    SourceText,
+};
 pub use times::{LastFrames, Spread, StepTimes, Times};
 pub use what_if::{BadModule, WhatIf, page_with_what_if};
 pub use xml::escaped as escape_xml;

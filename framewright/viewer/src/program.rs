@@ -1,5 +1,6 @@
 //! The page of a running program: its own Plan with its own draws.
 
+use crate::open_questions::{self, OpenQuestions, no_json};
 use crate::page::{Page, ShownPlan, page_data};
 use crate::server::{Choice, Controls, LiveState, Output, PublishedState, Server};
 use crate::times::{LastFrames, Times};
@@ -39,6 +40,7 @@ pub struct Viewer {
     id: Arc<str>,
     version: u64,
     shown: ShownPlanState,
+    questions: OpenQuestions,
     last: LastFrames,
     told: Option<Instant>,
     /// What the last choice did, if it was refused.
@@ -76,6 +78,7 @@ impl Viewer {
             id: format!("{:016x}", secret()).into(),
             version: 0,
             shown: ShownPlanState::default(),
+            questions: OpenQuestions::default(),
             last: LastFrames::default(),
             told: None,
             mistakes: Vec::new(),
@@ -95,10 +98,13 @@ impl Viewer {
     /// # Errors
     /// Those of reading what the device left, such as a lost device. A setting that is refused is told in the page.
     pub fn frame(&mut self, renderer: &mut Renderer) -> Result<(), Error> {
-        if !self.server.is_watched() {
+        if !self.server.is_watched() && !self.questions.is_waiting() {
             return Ok(());
         }
         let chose = self.take_choices(renderer);
+        if self.questions.frame(&self.server, renderer, self.shown.version)? {
+            return Ok(());
+        }
         let anew = renderer.plan().is_some() && self.shown.plan != Some(renderer.plans());
         if anew {
             self.show_plan(renderer)?;
@@ -135,7 +141,8 @@ impl Viewer {
         !choices.is_empty()
     }
 
-    fn show_plan(&mut self, renderer: &Renderer) -> Result<(), Error> {
+    fn show_plan(&mut self, renderer: &mut Renderer) -> Result<(), Error> {
+        let captures = open_questions::to_ask_for(renderer)?;
         let Some(plan) = renderer.plan() else { return Ok(()) };
         let shown = ShownPlan {
             name: renderer.name(),
@@ -144,7 +151,7 @@ impl Viewer {
             sources: Some(renderer.sources()),
             times: None,
         };
-        let page = Page { plans: vec![shown], differences: None, devices: &[], captures: &[] };
+        let page = Page { plans: vec![shown], differences: None, devices: &[], captures: &captures };
         self.shown = ShownPlanState {
             plan: Some(renderer.plans()),
             version: self.version + 1,
@@ -244,8 +251,4 @@ fn took(times: Option<&Times>) -> String {
             times.frame.median, times.recording.median
         )
     })
-}
-
-fn no_json(error: serde_json::Error) -> Error {
-    framewright_vulkan::Error::BadPlan { what: format!("it has no JSON form: {error}") }.into()
 }

@@ -6,7 +6,33 @@
 use super::{Cadence, Frame, Image, ImageIndex, Lifetime, Output, Pass, Resource, TransferUse, Work};
 use crate::base::Span;
 use crate::vulkan::{Aspects, FillValue, Shape, Subresources};
+use serde::{Deserialize, Serialize};
+use std::collections::HashSet;
 use std::sync::Arc;
+
+/// Captures of one Plan take at most about this many bytes.
+const MOST_BYTES: u64 = 256 << 20;
+/// A Plan has at most this many captures.
+const MOST: usize = 64;
+
+/// What tells a capture from all others of a frame.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CaptureName {
+    /// The pass.
+    pub pass: Arc<str>,
+    /// The image.
+    pub image: Arc<str>,
+    /// The mip level.
+    #[serde(default)]
+    pub mip: u32,
+    /// The first layer.
+    #[serde(default)]
+    pub layer: u32,
+    /// Whether it is the stencil of depth and stencil.
+    #[serde(default)]
+    pub stencil: bool,
+}
 
 /// A copy of what a pass left in an image: one mip level, and of depth and stencil one plane.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,6 +56,63 @@ pub struct Captures {
     pub of_passes: Vec<Capture>,
     /// What is left out, and why, once for each image.
     pub left_out: Vec<String>,
+}
+
+impl Capture {
+    /// What tells it from all others of its frame.
+    #[must_use]
+    pub fn name(&self) -> CaptureName {
+        CaptureName {
+            pass: self.pass.clone(),
+            image: self.image.clone(),
+            mip: self.range.base_mip,
+            layer: self.range.base_layer,
+            stencil: self.range.aspects == Aspects::STENCIL,
+        }
+    }
+
+    /// Parts of `captures` that one Plan holds each: their copies take memory.
+    pub fn batches(captures: &[Capture]) -> impl Iterator<Item = &[Capture]> {
+        let mut rest = captures;
+        std::iter::from_fn(move || {
+            let mut bytes = 0_u64;
+            let fitting = rest.iter().take(MOST).take_while(|capture| {
+                bytes = bytes.saturating_add(capture.bytes);
+                bytes <= MOST_BYTES
+            });
+            let count = fitting.count().max(1).min(rest.len());
+            let (batch, later) = rest.split_at(count);
+            rest = later;
+            (!batch.is_empty()).then_some(batch)
+        })
+    }
+}
+
+impl Captures {
+    /// Those of these names, in the order of the passes, each once; and of each other name why there is none, in words.
+    #[must_use]
+    pub fn named(&self, names: &[CaptureName]) -> (Vec<Capture>, Vec<(CaptureName, String)>) {
+        let wanted: HashSet<&CaptureName> = names.iter().collect();
+        let found: Vec<Capture> =
+            self.of_passes.iter().filter(|capture| wanted.contains(&capture.name())).cloned().collect();
+        let there: HashSet<CaptureName> = found.iter().map(Capture::name).collect();
+        let missing = names.iter().filter(|name| !there.contains(*name));
+        (found, missing.map(|name| (name.clone(), self.why_not(name))).collect())
+    }
+
+    fn why_not(&self, name: &CaptureName) -> String {
+        let CaptureName { pass, image, .. } = name;
+        let of_image = format!("`{image}`: ");
+        if let Some(why) = self.left_out.iter().find(|why| why.starts_with(&of_image)) {
+            return why.clone();
+        }
+        let written = self.of_passes.iter().filter(|capture| capture.image == *image).collect::<Vec<_>>();
+        match () {
+            () if written.is_empty() => format!("no pass of the frame writes an image `{image}` that has a picture"),
+            () if written.iter().all(|capture| capture.pass != *pass) => format!("no pass `{pass}` writes `{image}`"),
+            () => format!("`{pass}` doesn't write this part of `{image}`"),
+        }
+    }
 }
 
 impl Frame {
@@ -170,4 +253,69 @@ fn writes(pass: &Pass, images: &[Image]) -> Vec<(ImageIndex, Subresources)> {
         }
     }
     all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::{Blend, ColorTarget, Draw};
+    use crate::vulkan::{ColorComponents, Format};
+
+    /// One image of each size, and a pass that draws into it.
+    fn frame(sides: &[u32]) -> Frame {
+        let mut frame = Frame::default();
+        for side in sides.iter().copied() {
+            let image = ImageIndex(u32::try_from(frame.images.len()).expect("few"));
+            frame.images.push(Image::new(&format!("i{}", image.0), Format::R8G8B8A8_SRGB, side, side));
+            let work = Work::Draw { draw: Draw::FullScreen, shader: "s".into(), discards: false, per_sample: false };
+            let target = ColorTarget {
+                image,
+                range: Subresources::WHOLE,
+                span: Span::NONE,
+                clear: None,
+                blend: Blend::Replace,
+                write_mask: ColorComponents::RGBA,
+            };
+            frame.passes.push(Pass { color: vec![target], ..Pass::new(&format!("p{}", image.0), work) });
+        }
+        frame
+    }
+
+    #[test]
+    fn batches_hold_all_captures_in_order_within_their_bounds() {
+        let captures = frame(&[64, 9000, 9000, 8, 8]).captures(|_| true).of_passes;
+        let sizes: Vec<usize> = Capture::batches(&captures).map(<[Capture]>::len).collect();
+        assert_eq!(sizes, [1, 1, 1, 2], "9000 × 9000 texels take more than a batch");
+        assert!(Capture::batches(&captures).flatten().eq(&captures));
+        assert_eq!(Capture::batches(&[]).count(), 0);
+    }
+
+    /// LV-5: whoever asks for what isn't there is told what is missing.
+    #[test]
+    fn lv_5_captures_are_found_by_name_and_what_is_missing_is_said() {
+        let mut frame = frame(&[8, 8]);
+        frame.images[1].samples = 4;
+        frame.images[1].format = Format::R32_UINT;
+        frame.images[1].layers = 2;
+        let all = frame.captures(|_| true);
+        let name = |pass: &str, image: &str, mip| CaptureName {
+            pass: pass.into(),
+            image: image.into(),
+            mip,
+            layer: 0,
+            stencil: false,
+        };
+        let (found, missing) = all.named(&[name("p0", "i0", 0), name("p0", "i0", 0)]);
+        assert_eq!((found.len(), missing), (1, Vec::new()));
+        assert_eq!(found[0].name(), name("p0", "i0", 0));
+        for (wanted, why) in [
+            (name("p1", "i0", 0), "no pass `p1` writes `i0`"),
+            (name("p0", "i0", 1), "`p0` doesn't write this part of `i0`"),
+            (name("p0", "i", 0), "no pass of the frame writes an image `i` that has a picture"),
+            (name("p1", "i1", 0), "`i1`: it has several samples and several layers, which can't be resolved"),
+        ] {
+            let (found, missing) = all.named(std::slice::from_ref(&wanted));
+            assert_eq!((found, missing), (Vec::new(), vec![(wanted, why.to_owned())]));
+        }
+    }
 }

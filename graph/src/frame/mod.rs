@@ -33,7 +33,7 @@ mod work;
 pub(crate) use access::{Access, Effect, VisitAccess};
 pub use buffer_role::BufferRole;
 pub use cadence::Cadence;
-pub use capture::{Capture, Captures, capture_name};
+pub use capture::{Capture, CaptureName, Captures, capture_name};
 pub use decided_property::{DecidedBy, DecidedProperty, NamedValue, Property, Subject};
 pub use declared_use::DeclaredUse;
 pub use draw::{Cascade, Draw, DrawList, Metres, Share};

@@ -3,7 +3,7 @@
 
 use super::data::{EncodingError, Picture};
 use super::texel;
-use exr::prelude::{AnyChannel, AnyChannels, FlatSamples, Image, SmallVec, WritableImage, f16};
+use exr::prelude::{AnyChannel, AnyChannels, Encoding, FlatSamples, Image, SmallVec, WritableImage, f16};
 use framewright_graph::vulkan::{Format, Numeric};
 use std::io::Cursor;
 
@@ -27,7 +27,7 @@ pub(super) fn write(picture: &Picture<'_>) -> Result<Vec<u8>, EncodingError> {
     let channels = names.iter().zip(samples).map(|(name, samples)| AnyChannel::new(*name, samples));
     let channels: SmallVec<[AnyChannel<FlatSamples>; 4]> = channels.collect();
     let [width, height] = picture.extent.map(|size| size as usize);
-    let image = Image::from_channels((width, height), AnyChannels::sort(channels));
+    let image = Image::from_encoded_channels((width, height), Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels));
     let mut file = Cursor::new(Vec::new());
     image.write().non_parallel().to_buffered(&mut file)?;
     Ok(file.into_inner())

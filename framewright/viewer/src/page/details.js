@@ -1,6 +1,7 @@
 /** The panel about what is selected. */
 function showDetails() {
   const panel = document.querySelector("#details > div");
+  forgetWithSelection();
   panel.replaceChildren();
   panel.parentElement.classList.toggle("empty", !state.selected && !state.unknown && models.every((model) => model.plan));
   if (!state.selected) {
@@ -30,7 +31,7 @@ function usesOf(model, node) {
   }));
 }
 
-/** The captured pictures that `wanted` picks, small ones in a row. */
+/** The captured pictures that `wanted` picks, small ones in a row: they are drawn when they are in sight. */
 function picturesFor(title, wanted) {
   const found = DATA.captures.filter(wanted);
   if (found.length === 0) return null;
@@ -40,7 +41,7 @@ function picturesFor(title, wanted) {
 /** What a pass's images held before it, and hold after it. */
 function picturesOfPass(model, node) {
   const order = new Map(model.nodes.map((one, at) => [one.name, at]));
-  const images = node.uses.filter((use) => "image" in use.resource).map((use) => ({ name: model.resourceOf(use.resource).name, ...use }));
+  const images = node.uses.filter((use) => "image" in use.resource).map((use) => ({ name: frameName(model.resourceOf(use.resource).name), ...use }));
   const last = (image) => DATA.captures.findLast((capture) => capture.image === image && order.get(capture.pass) < node.at_index);
   const before = new Set(images.filter((use) => use.reads).map((use) => last(use.name)).filter(Boolean));
   return [picturesFor("Before it", (capture) => before.has(capture)), picturesFor("After it", (capture) => capture.pass === node.name)];
@@ -126,7 +127,7 @@ function aboutResource(model, { image, buffer }) {
     return { ...line, text: `step ${above[1].about.step}${where}: ${line.text}` };
   };
   const barriers = lines.filter(({ line }) => line.kind === "barrier").map(inStep);
-  return [element("h2", {}, one.name), outlineList(model, own), picturesFor("Pictures", (capture) => capture.image === one.name),
+  return [element("h2", {}, one.name), outlineList(model, own), picturesFor("Pictures", (capture) => capture.image === frameName(one.name)),
     heading("Used by"), list(users.map((node) => {
       const uses = node.uses.filter((use) => model.resourceKey(use.resource) === key);
       const how = uses.some((use) => use.reads) ? (uses.some((use) => use.writes) ? "reads and writes" : "reads") : "writes";

@@ -1,5 +1,7 @@
 /** The graph: steps as boxes from top to bottom with their passes and what they write, and the contents that go between. */
 const ROW = 20;
+/** How high pictures in boxes are. */
+const BOX_PICTURE = 58;
 /** Frames of more passes than this begin with their fragments folded. */
 const FOLD_ABOVE = 80;
 
@@ -89,15 +91,16 @@ function inOrder(boxes, edges) {
 }
 
 /** What a box says of itself: below its title its passes, and what it writes for others. */
-function measured(model, box) {
-  const writes = [...box.writes].map(([key, resource]) => ({ key, text: nameOf(key), about: sizeOf(model.resourceOf(resource)) }));
+function measured(model, box, pictured) {
+  const passes = new Set(box.nodes.map((node) => node.name));
+  const writes = [...box.writes].map(([key, resource]) => ({ key, text: nameOf(key), about: sizeOf(model.resourceOf(resource)), capture: pictured ? captureOf(nameOf(key), passes) : null }));
   const ms = box.nodes.length > 0 ? model.msOf(box) : null;
   const about = box.kind === "fragment" ? count(box.nodes.length, "pass", "passes")
     : box.kind === "step" ? scopeWords(model.plan.steps[box.step]) : box.before ? "from before the frame" : "after the frame";
   const rows = box.kind === "fragment" ? [] : box.nodes;
   const letters = Math.max(box.title.length + about.length + 4, ...rows.map((node) => node.name.length + (node.because ? 4 : 0)), ...writes.map(({ text, about }) => text.length + about.length + 3));
   const width = Math.min(340, Math.max(120, 20 + 6.4 * letters));
-  return { ...box, rows, list: writes, about, ms, width, height: ROW + 4 + ROW * (rows.length + writes.length) + (rows.length + writes.length > 0 ? 6 : 0) };
+  return { ...box, rows, list: writes, about, ms, width, height: ROW + 4 + ROW * (rows.length + writes.length) + BOX_PICTURE * writes.filter(({ capture }) => capture).length + (rows.length + writes.length > 0 ? 6 : 0) };
 }
 
 const scopeWords = ({ work }) => typeof work === "string" || !work.render ? (typeof work === "string" ? "" : Object.keys(work)[0])
@@ -110,9 +113,10 @@ function graphView(model) {
   const fragments = [...new Set(model.nodes.map((node) => fragmentOf(node.name)).filter(Boolean))];
   const folded = new Set(model.nodes.length > FOLD_ABOVE ? fragments : []);
   let drawn;
+  let pictured = false;
   const lay = () => {
     const { boxes, edges } = graphOf(model, folded);
-    const sized = boxes.map((box) => measured(model, box));
+    const sized = boxes.map((box) => measured(model, box, pictured));
     drawn = { boxes: sized, edges, ...layered(sized, edges) };
   };
   lay();
@@ -149,7 +153,7 @@ function graphView(model) {
     foldAll.textContent = folded.size > 0 ? "Unfold fragments" : "Fold fragments";
     again();
   } }, folded.size > 0 ? "Unfold fragments" : "Fold fragments");
-  const group = element("div", { class: "fills" }, element("p", { class: "tools" }, box.buttons, fragments.length > 0 ? foldAll : null,
+  const group = element("div", { class: "fills" }, element("p", { class: "tools" }, box.buttons, fragments.length > 0 ? foldAll : null, picturesSwitch((on) => { pictured = on; again(); }),
     element("span", { class: "hint" }, "A box is a step: its passes, and below them what it writes for others. Drag moves, the wheel zooms.")), box);
   group.redraw = box.redraw;
   group.reveal = box.reveal;
@@ -182,11 +186,14 @@ function drawnBox(model, box, [x, y], unfold) {
       shape("rect", { x: x + 4, y: top, width: box.width - 8, height: ROW - 2, rx: 4 }), shape("text", { x: x + 10, y: top + 13 }, inMiddle(node.name, 48))));
     top += ROW;
   }
-  for (const { key, text, about } of box.list) {
+  for (const { key, text, about, capture } of box.list) {
     made.append(shape("rect", { class: "under", x: x + 4, y: top, width: box.width - 8, height: ROW - 2, ...picks(key) }, shape("title", {}, text + ", " + about)),
       shape("text", { class: "small", x: x + 10, y: top + 13, "data-key": key, onclick: choose(key) }, inMiddle(text, 28)),
       shape("text", { class: "end small", x: x + box.width - 10, y: top + 13, "pointer-events": "none" }, about));
     top += ROW;
+    if (!capture) continue;
+    made.append(tinyPicture(capture, [x + 10, top, box.width - 20, BOX_PICTURE - 6]));
+    top += BOX_PICTURE;
   }
   return made;
 }

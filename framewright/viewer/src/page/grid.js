@@ -3,6 +3,8 @@ const CELL = 22;
 const NAMES = 230;
 const SUMS = 96;
 const HEADS = 150;
+/** How high rows with pictures are. */
+const PICTURED = 56;
 /** What a row may be, for the filter. */
 const ROW_KINDS = [["all", "all"], ["related", "related to the selection"], ["attachment", "attachments"], ["sampled", "sampled images"], ["storage", "storage"], ["kept", "what outlives the frame"]];
 
@@ -30,18 +32,23 @@ function gridView(model) {
   const all = model.rows();
   let kind = "all";
   let rows = all;
+  let tall = CELL;
   const x = (column) => NAMES + SUMS + column * CELL;
-  const y = (row) => HEADS + row * CELL;
+  const y = (row) => HEADS + row * tall;
   const extent = () => [x(columns.length) + 12, y(rows.length) + 12];
   const box = scroller(extent(), "Passes and images of " + model.name, (svg, left, top, width, height) => {
     svg.setAttribute("viewBox", [0, 0, width, height].join(" "));
-    const from = [Math.max(0, Math.floor(left / CELL)), Math.max(0, Math.floor(top / CELL))];
-    const to = [Math.min(columns.length, Math.ceil((left + width - NAMES - SUMS) / CELL) + 1), Math.min(rows.length, Math.ceil((top + height - HEADS) / CELL) + 1)];
+    const from = [Math.max(0, Math.floor(left / CELL)), Math.max(0, Math.floor(top / tall))];
+    const to = [Math.min(columns.length, Math.ceil((left + width - NAMES - SUMS) / CELL) + 1), Math.min(rows.length, Math.ceil((top + height - HEADS) / tall) + 1)];
     const body = shape("g", { transform: `translate(${-left} ${-top})` });
     const heads = shape("g", { transform: `translate(${-left} 0)` });
     const names = shape("g", { transform: `translate(0 ${-top})` });
-    for (let column = from[0]; column < to[0]; column += 1) drawColumn(model, columns, column, x(column), rows.length, body, heads);
-    for (let row = from[1]; row < to[1]; row += 1) drawRow(rows[row], columns, [from[0], to[0]], x, y(row), body, names);
+    for (let column = from[0]; column < to[0]; column += 1) drawColumn(model, columns, column, x(column), rows.length * tall, body, heads);
+    for (let row = from[1]; row < to[1]; row += 1) {
+      drawRow(rows[row], columns, [from[0], to[0]], x, y(row) + (tall - CELL) / 2, body, names, tall > CELL ? 16 : 30);
+      const capture = tall > CELL ? captureOf(rows[row].resource.name) : null;
+      if (capture) names.append(tinyPicture(capture, [4, y(row) + 3, 92, tall - 6]));
+    }
     const cover = (attributes) => shape("rect", { fill: "var(--ground)", ...attributes });
     svg.append(body, cover({ x: 0, y: 0, width, height: HEADS }), heads, cover({ x: 0, y: 0, width: NAMES + SUMS, height }), names, cover({ x: 0, y: 0, width: NAMES + SUMS, height: HEADS }),
       shape("text", { class: "small end", x: NAMES + SUMS - 8, y: 10 }, "step"), shape("text", { class: "small", x: 8, y: HEADS - 8 }, count(rows.length, "image or buffer", "images and buffers")),
@@ -56,20 +63,24 @@ function gridView(model) {
     const column = columns.findIndex((one) => one.key === wanted);
     const row = rows.findIndex((one) => one.key === wanted);
     if (column >= 0) box.show(column * CELL, box.scrollTop, CELL + NAMES + SUMS, 1);
-    if (row >= 0) box.show(box.scrollLeft, row * CELL, 1, CELL + HEADS);
+    if (row >= 0) box.show(box.scrollLeft, row * tall, 1, tall + HEADS);
   };
   const choice = element("label", {}, "Rows: ", element("select", { onchange: (event) => { kind = event.target.value; filtered(); } }, ROW_KINDS.map(([value, words]) => element("option", { value }, words))));
-  const legend = element("p", { class: "tools" }, choice, element("span", { class: "hint" }, "R reads · W writes · B reads and writes · red edge: barrier before · dot above: loaded · dot below: stored · bar: lifetime, faint if it outlives the frame · grey: left out, nothing needs it"));
+  const switched = picturesSwitch((on) => {
+    tall = on ? PICTURED : CELL;
+    box.resize(extent());
+  });
+  const legend = element("p", { class: "tools" }, choice, switched, element("span", { class: "hint" }, "R reads · W writes · B reads and writes · red edge: barrier before · dot above: loaded · dot below: stored · bar: lifetime, faint if it outlives the frame · grey: left out, nothing needs it"));
   const group = element("div", { class: "fills" }, legend, box);
   group.redraw = box.redraw;
   group.reveal = box.reveal;
   return group;
 }
 
-function drawColumn(model, columns, column, left, rows, body, heads) {
+function drawColumn(model, columns, column, left, below, body, heads) {
   const { node, key, title, culled } = columns[column];
   const begins = node && (column === 0 || columns[column - 1].node?.step !== node.step);
-  if (node && node.step % 2 === 0) body.append(shape("rect", { class: "stripe", x: left, y: HEADS, width: CELL, height: rows * CELL }));
+  if (node && node.step % 2 === 0) body.append(shape("rect", { class: "stripe", x: left, y: HEADS, width: CELL, height: below }));
   if (begins) heads.append(shape("text", { class: "small", x: left + 2, y: 10, "data-key": model.stepKey(node.step), onclick: () => select(model.stepKey(node.step), { reveal: false }) }, node.step));
   heads.append(shape("g", { class: (node ? node.kind : "") + (culled ? " culled" : ""), ...picks(key) },
     shape("title", {}, culled ? title + ": " + culled : title),
@@ -77,12 +88,12 @@ function drawColumn(model, columns, column, left, rows, body, heads) {
     shape("text", { transform: `translate(${left + 15} ${HEADS - 6}) rotate(-90)` }, inMiddle(title, 19))));
 }
 
-function drawRow({ key, resource, first, last, marks, moved }, columns, [from, to], x, top, body, names) {
+function drawRow({ key, resource, first, last, marks, moved }, columns, [from, to], x, top, body, names, letters) {
   const lives = resource.role.transient;
   const choose = () => select(key, { reveal: false });
   body.append(shape("rect", { class: lives ? "life" : "outside", x: x(lives ? first : 0), y: top + 4, width: (lives ? last - first + 1 : columns.length) * CELL, height: CELL - 8, rx: 4 }));
-  names.append(shape("g", picks(key), shape("title", {}, resource.name + ", " + sizeOf(resource)), shape("rect", { x: 0, y: top, width: NAMES - 4, height: CELL, fill: "none" }),
-    shape("text", { class: "end", x: NAMES - 8, y: top + 15 }, inMiddle(resource.name, 30))),
+  names.append(shape("g", picks(key), shape("title", {}, resource.name + ", " + sizeOf(resource)), shape("rect", { x: letters < 30 ? 100 : 0, y: top, width: NAMES - 4 - (letters < 30 ? 100 : 0), height: CELL, fill: "none" }),
+    shape("text", { class: "end", x: NAMES - 8, y: top + 15 }, inMiddle(resource.name, letters))),
   shape("text", { class: "small end", x: NAMES + SUMS - 8, y: top + 15 }, moved > 0 ? bytes(moved) : ""));
   for (const [at, mark] of marks) {
     if (at < from || at >= to) continue;

@@ -3,7 +3,7 @@
 mod thumbnail;
 
 pub use framewright_what_if::MOST_NODES;
-pub use thumbnail::Thumbnail;
+pub use thumbnail::{PictureSize, PictureTexels, Thumbnail};
 
 use crate::html::{self, Template};
 use crate::times::Times;
@@ -15,7 +15,7 @@ use serde::Serialize;
 
 const TEMPLATE: Template<'_> = Template {
     page: include_str!("page.html"),
-    style: include_str!("page.css"),
+    style: concat!(include_str!("page.css"), include_str!("pictures.css")),
     script: concat!(
         include_str!("elements.js"),
         include_str!("model.js"),
@@ -31,7 +31,12 @@ const TEMPLATE: Template<'_> = Template {
         include_str!("lists.js"),
         include_str!("differences.js"),
         include_str!("source.js"),
+        include_str!("asked.js"),
         include_str!("pictures.js"),
+        include_str!("tiny.js"),
+        include_str!("histogram.js"),
+        include_str!("stage.js"),
+        include_str!("large.js"),
         include_str!("details.js"),
         include_str!("live.js"),
         include_str!("what_if.js"),

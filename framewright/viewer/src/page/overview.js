@@ -51,7 +51,8 @@ function pictureOf(model) {
   const output = live.state?.outputs[0];
   if (output) return element("img", { src: output.picture, alt: output.name });
   const outputs = new Set(model.plan.images.filter(({ role }) => !role.transient).map((image) => image.name));
-  const capture = DATA.captures.findLast((one) => outputs.has(one.image)) ?? DATA.captures.at(-1);
+  const drawn = DATA.captures.filter((one) => one.data);
+  const capture = drawn.findLast((one) => outputs.has(one.image)) ?? drawn.at(-1);
   if (!capture) return element("p", { class: "faint" }, "There is no picture: ", element("code", {}, "framewright inspect --capture"), " makes some.");
   const canvas = element("canvas", { role: "img", "aria-label": capture.image + " after " + capture.pass });
   paint(canvas, capture);

@@ -7,9 +7,11 @@
 //! | `GET /state/SERVER/N` | the same; at once, if N is a number of another server |
 //! | `GET /picture/…` | a picture of the last good frame |
 //! | `POST /choose` | takes a [`Choice`] as JSON |
+//! | `POST /pictures` | takes [`AskedPictures`] as JSON, and answers with the pictures |
 
 use super::controls::Choice;
 use super::published_state::PublishedState;
+use super::questions::{AskedPictures, MOST_PICTURES, Question};
 use crate::page;
 use axum::body::Bytes;
 use axum::extract::{DefaultBodyLimit, Path, Request, State};
@@ -32,7 +34,9 @@ use tokio::time::timeout;
 
 /// A question for the state is answered after this time at the latest.
 const LONGEST_WAIT: Duration = Duration::from_secs(25);
-/// A choice has at most this many bytes.
+/// This many questions for pictures may wait.
+const MOST_QUESTIONS: usize = 16;
+/// A choice, or a question for pictures, has at most this many bytes.
 const LARGEST_CHOICE: usize = 64 << 10;
 
 /// Nobody looks any more when nobody asked for this long: browsers ask again at once.
@@ -49,6 +53,7 @@ struct ServerState {
     page: Bytes,
     shown: Receiver<PublishedState>,
     choices: mpsc::Sender<Choice>,
+    questions: mpsc::SyncSender<Question>,
 }
 
 /// A server of the live page, on a thread of its own, as long as this lives.
@@ -58,6 +63,7 @@ pub struct Server {
     token: Option<Arc<str>>,
     publish: Sender<PublishedState>,
     choices: mpsc::Receiver<Choice>,
+    questions: mpsc::Receiver<Question>,
     watched: Arc<AtomicBool>,
 }
 
@@ -74,6 +80,7 @@ impl Server {
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         let (publish, shown) = watch::channel(PublishedState::default());
         let (send, choices) = mpsc::channel();
+        let (ask, questions) = mpsc::sync_channel(MOST_QUESTIONS);
         let page = page::live_page()?.into();
         let (token, watched) = (token.map(Arc::from), Arc::new(AtomicBool::new(false)));
         let shared = ServerState {
@@ -84,6 +91,7 @@ impl Server {
             page,
             shown,
             choices: send,
+            questions: ask,
         };
         let listener = {
             let _entered = runtime.enter();
@@ -98,7 +106,7 @@ impl Server {
                 while shown.changed().await.is_ok() {}
             });
         })?;
-        Ok(Server { address, token, publish, choices, watched })
+        Ok(Server { address, token, publish, choices, questions, watched })
     }
 
     /// Where the page is, as a browser takes it.
@@ -130,6 +138,20 @@ impl Server {
     pub fn choices(&self) -> &mpsc::Receiver<Choice> {
         &self.choices
     }
+
+    /// Questions for pictures, in the order in which they were asked.
+    #[must_use]
+    pub fn questions(&self) -> &mpsc::Receiver<Question> {
+        &self.questions
+    }
+}
+
+impl ServerState {
+    /// Notes that somebody looks.
+    fn is_asked(&self) {
+        *self.asked.lock().unwrap_or_else(PoisonError::into_inner) = Some(Instant::now());
+        self.watched.store(true, Ordering::Relaxed);
+    }
 }
 
 fn routes(shared: ServerState) -> Router {
@@ -144,6 +166,7 @@ fn routes(shared: ServerState) -> Router {
         )
         .route(&at("/picture/{*name}"), get(picture))
         .route(&at("/choose"), post(choose))
+        .route(&at("/pictures"), post(pictures))
         // Browsers ask for an icon, and complain where there is no answer.
         .route("/favicon.ico", get(StatusCode::NO_CONTENT))
         .layer(DefaultBodyLimit::max(LARGEST_CHOICE))
@@ -205,8 +228,7 @@ async fn whole_page(State(shared): State<ServerState>) -> impl IntoResponse {
 }
 
 async fn state(State(mut shared): State<ServerState>, server: Option<String>, after: u64) -> Response {
-    *shared.asked.lock().unwrap_or_else(PoisonError::into_inner) = Some(Instant::now());
-    shared.watched.store(true, Ordering::Relaxed);
+    shared.is_asked();
     // A browser that outlived a server at the same address knows numbers of that one.
     let newer = shared.shown.wait_for(|shown| {
         let is_own = server.as_ref().is_none_or(|server| **server == *shown.server);
@@ -234,5 +256,26 @@ async fn choose(State(shared): State<ServerState>, body: Bytes) -> Response {
             Err(_) => StatusCode::SERVICE_UNAVAILABLE.into_response(),
         },
         Err(problem) => (StatusCode::BAD_REQUEST, format!("no choice: {problem}")).into_response(),
+    }
+}
+
+async fn pictures(State(shared): State<ServerState>, body: Bytes) -> Response {
+    let asked: AskedPictures = match serde_json::from_slice(&body) {
+        Ok(asked) => asked,
+        Err(problem) => return (StatusCode::BAD_REQUEST, format!("no question: {problem}")).into_response(),
+    };
+    if asked.pictures.len() > MOST_PICTURES {
+        let words = format!("a question asks for at most {MOST_PICTURES} pictures");
+        return (StatusCode::BAD_REQUEST, words).into_response();
+    }
+    shared.is_asked();
+    let (question, answered) = Question::new(asked);
+    if shared.questions.try_send(question).is_err() {
+        return (StatusCode::SERVICE_UNAVAILABLE, "too many pictures are asked for at once").into_response();
+    }
+    match timeout(LONGEST_WAIT, answered).await {
+        Ok(Ok(answer)) => ([(CONTENT_TYPE, "application/json")], answer).into_response(),
+        Ok(Err(_)) => (StatusCode::SERVICE_UNAVAILABLE, "nothing is drawn any more").into_response(),
+        Err(_) => (StatusCode::GATEWAY_TIMEOUT, "no frame ended in the meantime").into_response(),
     }
 }
