@@ -1,7 +1,7 @@
 //! A pipeline that is drawn frame after frame, while its settings and files change.
 
 use crate::choices::Choices;
-use crate::error::Error;
+use crate::error::{Error, Mistakes};
 use crate::options::RendererOptions;
 use crate::pipeline::{Origin, Pipeline};
 use framewright_graph::base::{ReadFiles, Sources};
@@ -17,6 +17,7 @@ use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::path::Path;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A pipeline that is drawn frame after frame.
 ///
@@ -40,6 +41,28 @@ pub struct Renderer {
     changed: bool,
     /// How often it was planned.
     plans: u64,
+    id: u64,
+    refused: Option<Refused>,
+}
+
+/// What was asked for last and isn't drawn, since it is wrong: files that were read anew, or choices. What is drawn stays.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Refused {
+    /// The error, in words.
+    pub message: String,
+    /// Its mistakes with their places; `None`: it has none.
+    pub mistakes: Option<Mistakes>,
+}
+
+impl Refused {
+    fn of(error: &Error) -> Refused {
+        let mistakes = match error {
+            Error::Mistakes { mistakes } => Some((**mistakes).clone()),
+            _ => None,
+        };
+        Refused { message: error.to_string(), mistakes }
+    }
 }
 
 /// What was chosen.
@@ -85,6 +108,9 @@ pub enum Change {
     },
 }
 
+/// The id of the next renderer.
+static NEXT_ID: AtomicU64 = AtomicU64::new(1);
+
 impl Renderer {
     /// Reads the pipeline in the file `pipeline`; where there is none, the shipped one of that name. Until it is told otherwise, the
     /// frame has 1280×720 texels, and the scene may hold everything.
@@ -120,6 +146,8 @@ impl Renderer {
             drawn: None,
             changed: true,
             plans: 0,
+            id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
+            refused: None,
         })
     }
 
@@ -216,7 +244,10 @@ impl Renderer {
     /// choices that it was made for; if there is none, the next call tries again.
     pub fn prepare(&mut self) -> Result<PreparedFrame<'_>, Error> {
         let change = match self.changed {
-            true => self.renew(false).inspect_err(|_| self.go_back())?,
+            true => self.renew(false).inspect_err(|error| {
+                self.refused = Some(Refused::of(error));
+                self.go_back();
+            })?,
             false => Change::Nothing,
         };
         Ok(PreparedFrame { plan: self.drawn()?.executor.plan(), change })
@@ -279,6 +310,7 @@ impl Renderer {
         };
         *plans += 1;
         self.changed = false;
+        self.refused = None;
         Ok(change)
     }
 
@@ -316,6 +348,10 @@ impl Renderer {
     /// # Errors
     /// Those of [`Renderer::open`] and [`Renderer::prepare`]: mistakes in the files leave all as it was.
     pub fn reload(&mut self) -> Result<Change, Error> {
+        self.read_anew().inspect_err(|error| self.refused = Some(Refused::of(error)))
+    }
+
+    fn read_anew(&mut self) -> Result<Change, Error> {
         self.read = ReadFiles::default();
         let mut pipeline = Pipeline::of(&self.origin, &self.options, &self.read)?;
         pipeline.choose(self.chosen.preset.as_deref())?;
@@ -408,6 +444,19 @@ impl Renderer {
     #[must_use]
     pub fn plans(&self) -> u64 {
         self.plans
+    }
+
+    /// What tells it from every other renderer of this process.
+    #[must_use]
+    pub fn id(&self) -> u64 {
+        self.id
+    }
+
+    /// What was asked for last and is wrong; `None`: what is drawn is what was asked for. A setting, a preset or a size that is refused at
+    /// once isn't told here.
+    #[must_use]
+    pub fn refused(&self) -> Option<&Refused> {
+        self.refused.as_ref()
     }
 
     /// The texts of the pipeline's files, as they were read last.

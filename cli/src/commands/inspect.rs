@@ -65,7 +65,13 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
             _ => Vec::new(),
         };
         let detail = Detail { verbose: true, ..detail };
-        let shown = ShownPlan { name: name.into_owned(), plan, detail, sources: Some(&pipeline.sources), times: None };
+        let shown = ShownPlan {
+            name: name.into_owned(),
+            plan,
+            detail,
+            sources: (!arguments.no_sources).then_some(&pipeline.sources),
+            times: None,
+        };
         Ok(framewright_viewer::page(&Page {
             plans: vec![shown],
             differences: None,

@@ -71,6 +71,7 @@ mod texture_declarations;
 mod textures;
 mod variants;
 mod views;
+mod watching;
 mod what_devices_allow;
 mod what_shaders_need;
 mod window;

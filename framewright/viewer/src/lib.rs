@@ -15,7 +15,10 @@ mod xml;
 
 pub use graph::{dot, mermaid, svg};
 pub use page::{DeviceDifferences, MOST_NODES, Page, ShownPlan, Thumbnail, live_page, page, page_data};
-pub use program::Viewer;
-pub use server::{Choice, Controls, LiveState, Output, PublishedState, Server, SourceText};
+pub use program::{SaveError, Viewer};
+pub use server::{
+    About, Choice, Controls, LiveProgram, LiveRenderer, LiveState, Output, PublishedState, Server, ShownFinding,
+    ShownMistakes, SourceText,
+};
 pub use times::{LastFrames, Spread, StepTimes, Times};
 pub use xml::escaped as escape_xml;

@@ -59,4 +59,10 @@ room! {
     /// `FRAMEWRIGHT_SLANG_COMPILER`. It isn't there, took too long, failed without a word, wrote no SPIR-V of version 1.6 or before, or
     /// lacks a library of its own. Where slangc lacks one, try `slangc -O0`, which calls none.
     SHADER_COMPILER = 1310,
+
+    /// No viewer of a program answers.
+    ///
+    /// A program with a viewer prints the address of its page when it starts. A part of the address is secret, and another one at each
+    /// start. To a program on another machine a tunnel leads: `ssh -L 7117:127.0.0.1:7117 MACHINE`.
+    NO_VIEWER = 1311,
 }
