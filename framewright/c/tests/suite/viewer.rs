@@ -1,6 +1,7 @@
 //! The page of a program in C (LV-1).
 
 use crate::programs::{expected, program};
+use crate::testing::Program;
 use serde_json::Value;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
@@ -56,13 +57,34 @@ fn msaa(state: &Value) -> Option<&str> {
     settings.iter().find(|setting| setting["name"] == "msaa")?["value"].as_str()
 }
 
-#[test]
-fn lv_1_a_program_in_c_serves_its_page_and_takes_settings() {
-    let Some(program) = program("framewright/c/tests/programs/watched.c") else { return };
+/// A program that runs, and the address of its page.
+fn started(program: &Program) -> (Ends, String) {
     let mut running = Ends(program.command(&[], &[]).stdout(Stdio::piped()).spawn().expect("it runs"));
     let mut url = String::new();
     BufReader::new(running.0.stdout.take().expect("piped")).read_line(&mut url).expect("a line");
-    let url = url.trim();
+    (running, url.trim().to_owned())
+}
+
+/// The step and pass are those that the program recorded, by the labels of the commands.
+#[test]
+fn lv_1_findings_of_validation_stand_in_the_page_at_their_step() {
+    let Some(program) = program("framewright/c/tests/programs/findings.c") else { return };
+    let (mut running, url) = started(&program);
+    let found = |state: &Value| state["live"]["program"]["findings"].as_array().is_some_and(|found| !found.is_empty());
+    let state = state(&url, found);
+    let finding = &state["live"]["program"]["findings"][0];
+    assert!(finding["rule"].as_str().is_some_and(|rule| rule.contains("vkCmdSetLineWidth")), "{finding}");
+    assert!(finding["at"].as_str().is_some_and(|at| at.starts_with("step 0: ") && at.contains("whole")), "{finding}");
+    assert!(finding["text"].as_str().is_some_and(|text| !text.is_empty()) && finding["times"].as_u64() >= Some(1));
+    std::fs::write(program.path("end"), "").expect("written");
+    assert!(running.0.wait().expect("ended").success());
+}
+
+#[test]
+fn lv_1_a_program_in_c_serves_its_page_and_takes_settings() {
+    let Some(program) = program("framewright/c/tests/programs/watched.c") else { return };
+    let (mut running, url) = started(&program);
+    let url = &*url;
 
     let shown = state(url, |state| msaa(state).is_some());
     assert_eq!(shown["live"]["program"]["renderers"][0]["name"], "forward");
