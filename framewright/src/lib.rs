@@ -67,5 +67,5 @@ pub use framewright_vulkan::{
 };
 pub use options::RendererOptions;
 pub use pipeline::{Pipeline, PlannedFrame};
-pub use renderer::{Change, PreparedFrame, Refused, Renderer};
+pub use renderer::{Change, PreparedFrame, RefusedChange, Renderer};
 pub use scene_renderer::{SceneRenderer, check_cameras};

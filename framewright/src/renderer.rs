@@ -42,26 +42,26 @@ pub struct Renderer {
     /// How often it was planned.
     plans: u64,
     id: u64,
-    refused: Option<Refused>,
+    refused: Option<RefusedChange>,
 }
 
 /// What was asked for last and isn't drawn, since it is wrong: files that were read anew, or choices. What is drawn stays.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
-pub struct Refused {
+pub struct RefusedChange {
     /// The error, in words.
     pub message: String,
     /// Its mistakes with their places; `None`: it has none.
     pub mistakes: Option<Mistakes>,
 }
 
-impl Refused {
-    fn of(error: &Error) -> Refused {
+impl RefusedChange {
+    fn of(error: &Error) -> RefusedChange {
         let mistakes = match error {
             Error::Mistakes { mistakes } => Some((**mistakes).clone()),
             _ => None,
         };
-        Refused { message: error.to_string(), mistakes }
+        RefusedChange { message: error.to_string(), mistakes }
     }
 }
 
@@ -245,7 +245,7 @@ impl Renderer {
     pub fn prepare(&mut self) -> Result<PreparedFrame<'_>, Error> {
         let change = match self.changed {
             true => self.renew(false).inspect_err(|error| {
-                self.refused = Some(Refused::of(error));
+                self.refused = Some(RefusedChange::of(error));
                 self.go_back();
             })?,
             false => Change::Nothing,
@@ -348,7 +348,7 @@ impl Renderer {
     /// # Errors
     /// Those of [`Renderer::open`] and [`Renderer::prepare`]: mistakes in the files leave all as it was.
     pub fn reload(&mut self) -> Result<Change, Error> {
-        self.read_anew().inspect_err(|error| self.refused = Some(Refused::of(error)))
+        self.read_anew().inspect_err(|error| self.refused = Some(RefusedChange::of(error)))
     }
 
     fn read_anew(&mut self) -> Result<Change, Error> {
@@ -455,7 +455,7 @@ impl Renderer {
     /// What was asked for last and is wrong; `None`: what is drawn is what was asked for. A setting, a preset or a size that is refused at
     /// once isn't told here.
     #[must_use]
-    pub fn refused(&self) -> Option<&Refused> {
+    pub fn refused(&self) -> Option<&RefusedChange> {
         self.refused.as_ref()
     }
 

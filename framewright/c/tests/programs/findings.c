@@ -16,8 +16,8 @@ static uint32_t record(void *context, const FramewrightPass *pass) {
     check(framewright_pass_image(pass, "mine", &image));
     VkClearColorValue blue = {.float32 = {0, 0, 1, 1}};
     vkCmdClearColorImage(pass->commands, image.image, image.layout, &blue, 1, &image.range);
-    /* No feature of the device allows it. No draw follows that would see it. */
-    vkCmdSetLineWidth(pass->commands, 3.0f);
+    /* Depths lie within 0 to 1. No draw follows that would see it. */
+    vkCmdSetDepthBounds(pass->commands, 2.0f, 3.0f);
     return 1;
 }
 

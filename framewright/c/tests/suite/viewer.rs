@@ -73,7 +73,7 @@ fn lv_1_findings_of_validation_stand_in_the_page_at_their_step() {
     let found = |state: &Value| state["live"]["program"]["findings"].as_array().is_some_and(|found| !found.is_empty());
     let state = state(&url, found);
     let finding = &state["live"]["program"]["findings"][0];
-    assert!(finding["rule"].as_str().is_some_and(|rule| rule.contains("vkCmdSetLineWidth")), "{finding}");
+    assert!(finding["rule"].as_str().is_some_and(|rule| rule.contains("vkCmdSetDepthBounds")), "{finding}");
     assert!(finding["at"].as_str().is_some_and(|at| at.starts_with("step 0: ") && at.contains("whole")), "{finding}");
     assert!(finding["text"].as_str().is_some_and(|text| !text.is_empty()) && finding["times"].as_u64() >= Some(1));
     std::fs::write(program.path("end"), "").expect("written");

@@ -16,7 +16,7 @@ use super::connections;
 use super::controls::Choice;
 use super::look::{Look, LookChange};
 use super::published_state::PublishedState;
-use super::saved;
+use super::saved_frame;
 use crate::page;
 use axum::Router;
 use axum::body::Bytes;
@@ -265,7 +265,7 @@ async fn frame(State(shared): State<ServerState>, uri: Uri) -> Response {
     let shown = shared.shown.borrow().clone();
     let with_sources = uri.query() != Some("sources=no");
     // It takes a moment: meanwhile others are answered.
-    let page = tokio::task::spawn_blocking(move || saved::saved_page(&shown, with_sources, None)).await;
+    let page = tokio::task::spawn_blocking(move || saved_frame::saved_page(&shown, with_sources, None)).await;
     match page {
         Ok(Ok(Some(page))) => {
             let headers = [

@@ -7,7 +7,7 @@ mod controls;
 mod look;
 mod mistakes;
 mod published_state;
-mod saved;
+mod saved_frame;
 
 pub use about::About;
 pub use answers::Server;
@@ -15,4 +15,4 @@ pub use controls::{Choice, Controls};
 pub(crate) use look::Look;
 pub use mistakes::ShownMistakes;
 pub use published_state::{LiveProgram, LiveRenderer, LiveState, Output, PublishedState, ShownFinding, SourceText};
-pub(crate) use saved::saved_page;
+pub(crate) use saved_frame::saved_page;
