@@ -148,3 +148,12 @@ fn lv_1_a_program_saves_its_frames_and_the_last_one_of_a_device_that_is_lost() {
     browser.has_no_errors();
     drop((slow, drawn, device));
 }
+
+#[test]
+fn lv_1_a_page_of_the_command_leaves_out_the_texts_of_files() {
+    let place = Place::new();
+    place.run(&["inspect", "forward", "--format", "html", "-o", "with.html"]).exits(0);
+    place.run(&["inspect", "forward", "--format", "html", "--no-sources", "-o", "without.html"]).exits(0);
+    let has_text = |name: &str| std::fs::read_to_string(place.path(name)).expect("written").contains("passes: [");
+    assert_eq!((has_text("with.html"), has_text("without.html")), (true, false));
+}
