@@ -272,6 +272,16 @@ pub(crate) enum Error {
     /// The page can't be served at the port.
     #[error("the port {port} of 127.0.0.1 can't be used: {}\nhelp: name another one by `--port`; 0 takes any that is free", text::escape(&source.to_string()))]
     Port { port: u16, source: io::Error },
+    /// What should lead to a viewer is no address of one.
+    #[error("`{}` is no address of a viewer: {why}", text::escape(address))]
+    ViewerAddress { address: String, why: String },
+    /// No viewer answers at an address.
+    #[error(
+        "no viewer answers at {}: {}\nhelp: the program prints its whole address, a part of which is secret; it must run, and a tunnel to another machine be open: `ssh -L 7117:127.0.0.1:7117 MACHINE`",
+        text::escape(url),
+        text::escape(why)
+    )]
+    NoViewer { url: String, why: String },
     /// Standard output can't be written.
     #[error("standard output can't be written: {}{}", text::escape(&.0.to_string()), mend(.0, None))]
     Print(io::Error),
@@ -428,7 +438,8 @@ impl Error {
             | Error::NoName { .. }
             | Error::UnknownCode { .. }
             | Error::ShaderCompiler { .. }
-            | Error::WrittenTwice { .. } => Exit::Usage,
+            | Error::WrittenTwice { .. }
+            | Error::ViewerAddress { .. } => Exit::Usage,
             Error::Interrupted { .. } | Error::InterruptedMeasuring { .. } | Error::InterruptedWriting { .. } => {
                 Exit::Interrupted
             }
@@ -439,6 +450,7 @@ impl Error {
             | Error::NoWindow { .. }
             | Error::NoWindowLibrary { .. }
             | Error::Port { .. }
+            | Error::NoViewer { .. }
             | Error::Print(_)
             | Error::Restart(_)
             | Error::Helper(_)

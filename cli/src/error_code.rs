@@ -57,6 +57,7 @@ impl Error {
             }
             Error::NoName { .. } => Code::NAME_FORM,
             Error::Port { .. } => Code::PORT,
+            Error::ViewerAddress { .. } | Error::NoViewer { .. } => Code::NO_VIEWER,
         })
     }
 }

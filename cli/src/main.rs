@@ -1,5 +1,6 @@
 //! The `framewright` command: checks, shows and runs pipeline files.
 
+mod attaching;
 mod budget;
 mod command_line;
 mod commands;

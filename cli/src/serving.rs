@@ -9,17 +9,17 @@ use crate::files::inputs;
 use crate::planning::{self, totals};
 use crate::system::{Exit, interrupt, text};
 use framewright::{Choices, Pipeline, PlannedFrame, SceneRenderer};
-use framewright_graph::base::{self, Diagnostic, ReadFiles, SourceFile, Sources};
+use framewright_graph::base::ReadFiles;
 use framewright_graph::frame::{Capture, CaptureName, DrawList};
 use framewright_graph::plan::Detail;
 use framewright_lab::outputs;
 use framewright_lab::picture::FileFormat;
 use framewright_passes::scene::{Scene, SceneError};
 use framewright_viewer::{
-    Choice, Controls, LastFrames, LiveState, Output, Page, PublishedState, ShownPlan, SourceText, Thumbnail, Times,
+    About, Choice, Controls, LastFrames, LiveState, Output, Page, PublishedState, ShownMistakes, ShownPlan, Thumbnail,
+    Times,
 };
 use framewright_vulkan::{Device, ExecutorOptions, Helper};
-use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::hash::{BuildHasher, RandomState};
 use std::sync::Arc;
@@ -48,7 +48,8 @@ pub(crate) struct Session<'a> {
     /// Whether a frame was drawn, or tried.
     begun: bool,
     good: GoodFrame,
-    wrong: SessionMistakes,
+    /// What keeps a newer frame from being drawn.
+    wrong: ShownMistakes,
 }
 
 /// A thing that was read, with the files that it was read from; `None`: they were wrong.
@@ -71,14 +72,6 @@ struct GoodFrame {
     planned: Option<PlannedFrame>,
     /// What was captured of it.
     captured: BTreeMap<CaptureName, CapturedImage>,
-}
-
-/// What keeps a newer frame from being drawn.
-#[derive(Default)]
-struct SessionMistakes {
-    mistakes: Value,
-    message: String,
-    sources: Vec<SourceText>,
 }
 
 impl<T> FileValue<T> {
@@ -104,7 +97,7 @@ impl<'a> Session<'a> {
             version: 0,
             begun: false,
             good: GoodFrame::default(),
-            wrong: SessionMistakes { mistakes: json!([]), ..SessionMistakes::default() },
+            wrong: ShownMistakes::default(),
         }
     }
 
@@ -150,12 +143,12 @@ impl<'a> Session<'a> {
             Ok(good) => {
                 let seconds = begun.elapsed().as_secs_f64();
                 self.good = GoodFrame { took: format!("{}, drawn in {seconds:.2} s", good.took), ..good };
-                self.wrong = SessionMistakes { mistakes: json!([]), ..SessionMistakes::default() };
+                self.wrong = ShownMistakes::default();
                 text::say(&self.good.took);
                 Ok(())
             }
             Err(error) if error.can_be_mended_in_files() && !(first && is_about_the_command_line(&error)) => {
-                self.wrong = SessionMistakes::of(&error);
+                self.wrong = shown_mistakes(&error);
                 text::say(&self.wrong.message);
                 Ok(())
             }
@@ -170,7 +163,7 @@ impl<'a> Session<'a> {
     pub(crate) fn published(&mut self, busy: bool) -> Result<PublishedState, Error> {
         self.version += 1;
         let live = LiveState {
-            format_version: 1,
+            format_version: About::FORMAT_VERSION,
             server: &self.server,
             version: self.version,
             frame: self.good.version,
@@ -183,6 +176,7 @@ impl<'a> Session<'a> {
             preset: self.preset.as_deref(),
             outputs: &self.good.outputs,
             took: &self.good.took,
+            program: None,
             times: None,
         };
         let live = serde_json::to_string(&live)?;
@@ -335,35 +329,14 @@ fn draw_frames(
     Ok(DrawnFrames { pictures: encoded.collect::<Result<_, Error>>()?, times: last.times() })
 }
 
-impl SessionMistakes {
-    fn of(error: &Error) -> SessionMistakes {
-        let message = error.shown();
-        let placed = |sources: &Sources, mistakes: &[Diagnostic]| (base::to_json(sources, mistakes), texts(sources));
-        let found = match error {
-            Error::Mistakes { mistakes } => Some(placed(&mistakes.sources, &mistakes.diagnostics)),
-            Error::Scene(problem) => match &**problem {
-                SceneError::Text { sources, mistakes } => Some(placed(sources, mistakes)),
-                _ => None,
-            },
-            _ => None,
-        };
-        match found {
-            Some((mistakes, sources)) => SessionMistakes { mistakes, message, sources },
-            None => SessionMistakes {
-                mistakes: json!([{ "message": message.trim_start_matches("error: "), "help": null, "labels": [] }]),
-                message,
-                sources: Vec::new(),
-            },
-        }
+fn shown_mistakes(error: &Error) -> ShownMistakes {
+    let message = error.shown();
+    match error {
+        Error::Mistakes { mistakes } => ShownMistakes::placed(message, &mistakes.sources, &mistakes.diagnostics),
+        Error::Scene(problem) => match &**problem {
+            SceneError::Text { sources, mistakes } => ShownMistakes::placed(message, sources, mistakes),
+            _ => ShownMistakes::unplaced(message),
+        },
+        _ => ShownMistakes::unplaced(message),
     }
-}
-
-fn texts(sources: &Sources) -> Vec<SourceText> {
-    let files = (0..).map_while(|file| sources.file(file));
-    let text = |file: &SourceFile| SourceText {
-        name: file.relative.to_string(),
-        shown: file.shown.clone(),
-        text: file.text.to_string(),
-    };
-    files.map(text).collect()
 }

@@ -3,7 +3,7 @@
 // - A function that can fail returns a status. `framewright_last_error` has the words, with file, line and column where a file is wrong.
 // - Texts are UTF-8 and end with 0. What a pointer of an argument leads to is needed during the call alone, and must not be NULL unless
 //   the function says so.
-// - Handles are made by `…_open`, `…_open_carried`, `…_open_physical`, `…_adopt`, `…_load`, `…_clone` and `framewright_renderer_device_features`, and
+// - Handles are made by `…_open`, `…_open_carried`, `…_open_physical`, `…_adopt`, `…_load`, `…_serve`, `…_clone` and `framewright_renderer_device_features`, and
 //   freed by the `…_free` of their kind, which takes NULL. What was made from a handle outlives it.
 // - A structure that begins with `struct_size` is set to 0 but for that: `FramewrightDeviceOptions options = {.struct_size = sizeof options}`.
 // - Vulkan's handles belong to the program, and are as its Vulkan demands: of the same device, alive, and in the state that is told.
@@ -156,6 +156,9 @@ typedef struct FramewrightResources FramewrightResources;
 
 // A scene in memory. Any thread may use it, and several at once.
 typedef struct FramewrightScene FramewrightScene;
+
+// A page that shows a running program, as long as this handle is there. One thread at a time uses it.
+typedef struct FramewrightViewer FramewrightViewer;
 
 // One mistake in the user's files or choices.
 typedef struct {
@@ -1044,6 +1047,24 @@ FramewrightStatus framewright_renderer_interface(FramewrightRenderer *renderer,
 FramewrightStatus framewright_renderer_read(FramewrightRenderer *renderer,
                                             const char *name,
                                             FramewrightTexels *texels);
+
+// Serves a page of the running program at `address`, such as "127.0.0.1:7117"; with port 0 at a port that is free. The page is for those alone
+// who know its whole address: `framewright_viewer_url`. An address that other machines reach shows the program's files to them.
+// `FRAMEWRIGHT_STATUS_MACHINE`: the address can't be had.
+FramewrightStatus framewright_viewer_serve(const char *address,
+                                           FramewrightViewer **viewer);
+
+// Shows the frame that a renderer drew last, and has it take the settings that were chosen in the page: the next frame has them. Called after
+// each frame, of each renderer that is to be seen. While no page is open it costs next to nothing. A setting that is refused is told in
+// the page. No frame that was recorded into the program's command buffers may wait to be submitted.
+FramewrightStatus framewright_viewer_frame(FramewrightViewer *viewer,
+                                           FramewrightRenderer *renderer);
+
+// Tells the address of the page, of which a part is secret. It lives as long as the handle.
+FramewrightStatus framewright_viewer_url(const FramewrightViewer *viewer, const char **url);
+
+// Ends a page, and its server.
+void framewright_viewer_free(FramewrightViewer *viewer);
 
 #ifdef __cplusplus
 }  // extern "C"

@@ -67,5 +67,5 @@ pub use framewright_vulkan::{
 };
 pub use options::RendererOptions;
 pub use pipeline::{FileLinks, Pipeline, PlannedFrame};
-pub use renderer::{CapturedTexels, Change, PreparedFrame, Renderer};
+pub use renderer::{CapturedTexels, Change, PreparedFrame, RefusedChange, Renderer};
 pub use scene_renderer::{SceneRenderer, check_cameras};

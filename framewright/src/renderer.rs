@@ -5,7 +5,7 @@ mod captures;
 pub use captures::CapturedTexels;
 
 use crate::choices::Choices;
-use crate::error::Error;
+use crate::error::{Error, Mistakes};
 use crate::options::RendererOptions;
 use crate::pipeline::{Origin, Pipeline};
 use framewright_graph::base::{ReadFiles, Sources};
@@ -21,6 +21,7 @@ use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::path::Path;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// A pipeline that is drawn frame after frame.
 ///
@@ -46,6 +47,28 @@ pub struct Renderer {
     plans: u64,
     /// What of a frame is captured.
     capturing: captures::CaptureState,
+    id: u64,
+    refused: Option<RefusedChange>,
+}
+
+/// What was asked for last and isn't drawn, since it is wrong: files that were read anew, or choices. What is drawn stays.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct RefusedChange {
+    /// The error, in words.
+    pub message: String,
+    /// Its mistakes with their places; `None`: it has none.
+    pub mistakes: Option<Mistakes>,
+}
+
+impl RefusedChange {
+    fn of(error: &Error) -> RefusedChange {
+        let mistakes = match error {
+            Error::Mistakes { mistakes } => Some((**mistakes).clone()),
+            _ => None,
+        };
+        RefusedChange { message: error.to_string(), mistakes }
+    }
 }
 
 /// What was chosen.
@@ -91,6 +114,9 @@ pub enum Change {
     },
 }
 
+/// The id of the next renderer.
+static NEXT_ID: AtomicU64 = AtomicU64::new(1);
+
 impl Renderer {
     /// Reads the pipeline in the file `pipeline`; where there is none, the shipped one of that name. Until it is told otherwise, the
     /// frame has 1280×720 texels, and the scene may hold everything.
@@ -127,6 +153,8 @@ impl Renderer {
             changed: true,
             plans: 0,
             capturing: captures::CaptureState::default(),
+            id: NEXT_ID.fetch_add(1, Ordering::Relaxed),
+            refused: None,
         })
     }
 
@@ -223,7 +251,10 @@ impl Renderer {
     /// choices that it was made for; if there is none, the next call tries again.
     pub fn prepare(&mut self) -> Result<PreparedFrame<'_>, Error> {
         let change = match self.changed || self.capturing.is_asked() {
-            true => self.renew(false).inspect_err(|_| self.go_back())?,
+            true => self.renew(false).inspect_err(|error| {
+                self.refused = Some(RefusedChange::of(error));
+                self.go_back();
+            })?,
             false => Change::Nothing,
         };
         Ok(PreparedFrame { plan: self.drawn()?.executor.plan(), change })
@@ -293,6 +324,7 @@ impl Renderer {
         // The Plan of before is no other one.
         *plans += u64::from(capturing.end(plan) != Some(true));
         self.changed = false;
+        self.refused = None;
         Ok(change)
     }
 
@@ -330,6 +362,10 @@ impl Renderer {
     /// # Errors
     /// Those of [`Renderer::open`] and [`Renderer::prepare`]: mistakes in the files leave all as it was.
     pub fn reload(&mut self) -> Result<Change, Error> {
+        self.read_anew().inspect_err(|error| self.refused = Some(RefusedChange::of(error)))
+    }
+
+    fn read_anew(&mut self) -> Result<Change, Error> {
         self.read = ReadFiles::default();
         let mut pipeline = Pipeline::of(&self.origin, &self.options, &self.read)?;
         pipeline.choose(self.chosen.preset.as_deref())?;
@@ -422,6 +458,19 @@ impl Renderer {
     #[must_use]
     pub fn plans(&self) -> u64 {
         self.plans
+    }
+
+    /// What tells it from every other renderer of this process.
+    #[must_use]
+    pub fn id(&self) -> u64 {
+        self.id
+    }
+
+    /// What was asked for last and is wrong; `None`: what is drawn is what was asked for. A setting, a preset or a size that is refused at
+    /// once isn't told here.
+    #[must_use]
+    pub fn refused(&self) -> Option<&RefusedChange> {
+        self.refused.as_ref()
     }
 
     /// The texts of the pipeline's files, as they were read last.

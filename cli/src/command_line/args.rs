@@ -1,5 +1,6 @@
 //! The command line: what can be said, and what each word means.
 
+use crate::command_line::attaching::AttachArguments;
 use crate::command_line::choosing::ChooseArguments;
 use crate::command_line::comparing::CompareArguments;
 use crate::command_line::differing::DiffArguments;
@@ -58,6 +59,10 @@ pub(crate) enum Command {
     /// Show the page of a pipeline, with the scene that it draws, in a browser of this machine. It follows every change to the files
     /// of the pipeline and the scene; settings are turned in the page.
     Serve(ServeArguments),
+    /// Show the page of a program that runs, in a browser of this machine, or save the frame that it draws. Needs no GPU.
+    ///
+    /// The program serves the page: it says its address.
+    Attach(AttachArguments),
     /// Show a scene through a pipeline in a window. It follows every change to the files of the pipeline and the scene; the mouse moves
     /// the camera, and keys turn settings.
     Window(WindowArguments),
@@ -156,6 +161,9 @@ pub(crate) struct InspectArguments {
     /// differences shown.
     #[arg(long, conflicts_with = "capture")]
     pub(crate) what_if: bool,
+    /// Leave the texts of the pipeline's files out of the page.
+    #[arg(long, conflicts_with = "what_if")]
+    pub(crate) no_sources: bool,
     /// Say the stages and accesses of each barrier too, and the bytes that each step moves.
     #[arg(long)]
     pub(crate) verbose: bool,

@@ -1,6 +1,7 @@
 //! The command line: its arguments, and the options that messages name.
 
 pub(crate) mod args;
+pub(crate) mod attaching;
 pub(crate) mod choosing;
 pub(crate) mod comparing;
 pub(crate) mod differing;

@@ -81,7 +81,8 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
         });
         let what_if = what_if.transpose()?;
         let detail = Detail { verbose: true, ..detail };
-        let shown = ShownPlan { name: name.into_owned(), plan, detail, sources: Some(&pipeline.sources), times: None };
+        let sources = (!arguments.no_sources).then_some(&*pipeline.sources);
+        let shown = ShownPlan { name: name.into_owned(), plan, detail, sources, times: None };
         let page = Page { plans: vec![shown], differences: None, devices: &devices, captures: &captures };
         let Some(what_if) = &what_if else { return Ok(framewright_viewer::page(&page)?) };
         Ok(framewright_viewer::page_with_what_if(&page, what_if)?)

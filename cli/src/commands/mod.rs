@@ -1,5 +1,6 @@
 //! The commands.
 
+mod attach;
 mod cache;
 mod check;
 mod choose;
@@ -33,6 +34,7 @@ pub(crate) fn execute(command: &Command) -> Result<Exit, Error> {
         Command::Explain(arguments) => explain::explain(arguments),
         Command::Run(arguments) => run::run(arguments),
         Command::Serve(arguments) => serve::serve(arguments),
+        Command::Attach(arguments) => attach::attach(arguments),
         Command::Window(arguments) => window::window(arguments),
         Command::Facts(arguments) => facts::facts(arguments),
         Command::Compare(arguments) => compare::compare(arguments),

@@ -74,6 +74,7 @@ mod texture_declarations;
 mod textures;
 mod variants;
 mod views;
+mod watching;
 mod what_devices_allow;
 mod what_if;
 mod what_shaders_need;

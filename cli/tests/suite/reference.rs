@@ -47,9 +47,9 @@ fn every_whole_file_of_the_reference_is_fine() {
 }
 
 /// The commands.
-const COMMANDS: [&str; 16] = [
-    "check", "inspect", "diff", "explain", "run", "serve", "window", "facts", "compare", "measure", "choose", "merge",
-    "new", "schema", "devices", "cache",
+const COMMANDS: [&str; 17] = [
+    "check", "inspect", "diff", "explain", "run", "serve", "attach", "window", "facts", "compare", "measure", "choose",
+    "merge", "new", "schema", "devices", "cache",
 ];
 
 /// The options of all commands, as their helps list them.

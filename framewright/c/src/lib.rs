@@ -29,6 +29,7 @@ mod sets;
 mod status;
 mod texels;
 mod version;
+mod viewer;
 
 pub use adopt::{
     FramewrightAdoptedDevice, FramewrightFeatures, FramewrightQueue, framewright_device_adopt,
@@ -91,3 +92,7 @@ pub use sets::FramewrightSet;
 pub use status::FramewrightStatus;
 pub use texels::{FramewrightTexels, framewright_renderer_read};
 pub use version::{FRAMEWRIGHT_ABI, framewright_abi, framewright_version};
+pub use viewer::{
+    FramewrightViewer, framewright_viewer_frame, framewright_viewer_free, framewright_viewer_serve,
+    framewright_viewer_url,
+};

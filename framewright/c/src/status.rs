@@ -34,6 +34,14 @@ pub(crate) enum Problem {
     Misuse(String),
     /// An error of the library.
     Library(Error),
+    /// A page can't be served at an address.
+    #[cfg(feature = "viewer")]
+    Served {
+        /// The address.
+        address: String,
+        /// The system's error.
+        why: std::io::Error,
+    },
     /// A panic, with what it said.
     Panic(String),
 }
@@ -49,6 +57,10 @@ impl Problem {
         match self {
             Problem::Misuse(_) => FramewrightStatus::Misuse,
             Problem::Library(error) => status(error),
+            #[cfg(feature = "viewer")]
+            Problem::Served { why, .. } if why.kind() == std::io::ErrorKind::InvalidInput => FramewrightStatus::Misuse,
+            #[cfg(feature = "viewer")]
+            Problem::Served { .. } => FramewrightStatus::Machine,
             Problem::Panic(_) => FramewrightStatus::Panic,
         }
     }
@@ -58,6 +70,8 @@ impl Problem {
             // Names in it are the caller's and the pipeline's.
             Problem::Misuse(what) => escape(what),
             Problem::Library(error) => error.to_string(),
+            #[cfg(feature = "viewer")]
+            Problem::Served { address, why } => format!("no page can be served at `{}`: {why}", escape(address)),
             Problem::Panic(what) => format!("the library panicked: {what}"),
         }
     }

@@ -19,10 +19,10 @@ pub use graph::{dot, mermaid, svg};
 pub use page::{
     DeviceDifferences, MOST_NODES, Page, PictureSize, PictureTexels, ShownPlan, Thumbnail, live_page, page, page_data,
 };
-pub use program::Viewer;
+pub use program::{SaveError, Viewer};
 pub use server::{
-    AskedPicture, AskedPictures, Choice, Controls, LiveState, Output, PictureAnswer, PublishedState, Question, Server,
-    SourceText,
+    About, AskedPicture, AskedPictures, Choice, Controls, LiveProgram, LiveRenderer, LiveState, Output, PictureAnswer,
+    PublishedState, Question, Server, ShownFinding, ShownMistakes, SourceText,
 };
 pub use times::{LastFrames, Spread, StepTimes, Times};
 pub use what_if::{BadModule, WhatIf, page_with_what_if};

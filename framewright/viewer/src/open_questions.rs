@@ -12,6 +12,8 @@ use std::collections::BTreeMap;
 #[derive(Debug, Default)]
 pub(crate) struct OpenQuestions {
     waiting: Vec<Question>,
+    /// The id of the renderer whose frame answers them.
+    renderer: u64,
 }
 
 /// A captured image whose layers and slices stand side by side, and how many these are; else why there is none.
@@ -23,13 +25,18 @@ impl OpenQuestions {
         !self.waiting.is_empty()
     }
 
+    /// Whether a frame of this renderer owes answers.
+    pub(crate) fn are_of(&self, renderer: &Renderer) -> bool {
+        self.is_waiting() && self.renderer == renderer.id()
+    }
+
     /// Answers what the frame that `renderer` drew last was captured for, or has the next one captured for what is asked. `shown` is the
     /// number of the frame on the page. Whether the renderer's Plan is one with captures, which no page shows.
     ///
     /// # Errors
     /// Those of reading what the device left.
     pub(crate) fn frame(&mut self, server: &Server, renderer: &mut Renderer, shown: u64) -> Result<bool, Error> {
-        if self.is_waiting() {
+        if self.are_of(renderer) {
             let Some(captured) = renderer.captured()? else { return Ok(renderer.is_capturing()) };
             let seen: BTreeMap<CaptureName, FlatImage> =
                 captured.into_iter().map(|(name, texels)| (name, texels.and_then(flat))).collect();
@@ -38,8 +45,8 @@ impl OpenQuestions {
             }
             return Ok(renderer.is_capturing());
         }
-        if renderer.is_capturing() {
-            return Ok(true);
+        if self.is_waiting() || renderer.is_capturing() {
+            return Ok(renderer.is_capturing());
         }
         for question in server.questions().try_iter().filter(Question::is_waiting) {
             if question.asked.frame == shown {
@@ -53,6 +60,7 @@ impl OpenQuestions {
             let mut names: Vec<CaptureName> = self.waiting.iter().flat_map(Question::names).collect();
             names.sort_unstable();
             names.dedup();
+            self.renderer = renderer.id();
             renderer.capture(&names);
         }
         Ok(false)

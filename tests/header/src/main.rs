@@ -4,7 +4,7 @@ use std::error::Error;
 use std::path::Path;
 
 /// The files in the order in which the header has their contents.
-const FILES: [&str; 19] = [
+const FILES: [&str; 20] = [
     "version",
     "status",
     "last_error",
@@ -24,6 +24,7 @@ const FILES: [&str; 19] = [
     "images",
     "ahead",
     "texels",
+    "viewer",
 ];
 
 fn main() -> Result<(), Box<dyn Error>> {

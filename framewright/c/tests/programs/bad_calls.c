@@ -381,6 +381,28 @@ static void custom_passes(const FramewrightDevice *device) {
     framewright_renderer_free(renderer);
 }
 
+/* A page that can't be served, or isn't one. */
+static void viewers(FramewrightRenderer *renderer) {
+    FramewrightViewer *viewer = (FramewrightViewer *)renderer;
+    const char *url = NULL;
+    WRONG(framewright_viewer_serve(NULL, &viewer), MISUSE, "`address` is NULL");
+    HOLDS(viewer == NULL);
+    WRONG(framewright_viewer_serve("127.0.0.1:0", NULL), MISUSE, "`viewer` is NULL");
+    WRONG(framewright_viewer_serve("nowhere", &viewer), MISUSE, "no page can be served at `nowhere`");
+    /* An address of documentation, which no machine has. */
+    WRONG(framewright_viewer_serve("192.0.2.1:7117", &viewer), MACHINE, "no page can be served at `192.0.2.1:7117`");
+    WRONG(framewright_viewer_frame(NULL, renderer), MISUSE, "`viewer` is NULL");
+    WRONG(framewright_viewer_url(NULL, &url), MISUSE, "`viewer` is NULL");
+    FINE(framewright_viewer_serve("127.0.0.1:0", &viewer));
+    WRONG(framewright_viewer_frame(viewer, NULL), MISUSE, "`renderer` is NULL");
+    WRONG(framewright_viewer_url(viewer, NULL), MISUSE, "`url` is NULL");
+    FINE(framewright_viewer_url(viewer, &url));
+    HOLDS(strncmp(url, "http://127.0.0.1:", 17) == 0);
+    FINE(framewright_viewer_frame(viewer, renderer));
+    framewright_viewer_free(viewer);
+    framewright_viewer_free(NULL);
+}
+
 int main(void) {
     HOLDS(framewright_abi() == FRAMEWRIGHT_ABI && framewright_version()[0] != 0 && framewright_last_error()[0] == 0);
     FramewrightDevice *device;
@@ -394,6 +416,7 @@ int main(void) {
     /* What was made from a handle outlives it. */
     framewright_device_free(device);
     renderers(renderer, scene);
+    viewers(renderer);
     framewright_scene_free(scene);
     FINE(framewright_renderer_frame(renderer, NULL));
     framewright_renderer_free(renderer);

@@ -4,3 +4,4 @@ mod header;
 mod page;
 mod programs;
 mod testing;
+mod viewer;

@@ -8,7 +8,7 @@ use std::process::Output;
 const EXTENT: [u32; 2] = [320, 180];
 
 /// A program of the repository, built; `None` where the machine can't build or draw.
-fn program(path: &str) -> Option<Program> {
+pub(crate) fn program(path: &str) -> Option<Program> {
     (has_headers() && has("cc") && render::device().is_some()).then(|| Program::of(&text(path)))
 }
 
@@ -20,7 +20,7 @@ fn picture(path: &Path) -> Vec<u8> {
 }
 
 /// The same by the layers of the library one by one.
-fn expected() -> Vec<u8> {
+pub(crate) fn expected() -> Vec<u8> {
     let device = render::device().expect("it was asked for");
     let scene = framewright::load_scene("spheres_and_cubes").expect("it is shipped");
     let setup =

@@ -67,9 +67,15 @@ impl Program {
 
     /// Runs it with arguments and variables.
     pub(crate) fn run(&self, arguments: &[&str], variables: &[(&str, &str)]) -> Output {
+        self.command(arguments, variables).output().expect("it runs")
+    }
+
+    /// The command that runs it.
+    pub(crate) fn command(&self, arguments: &[&str], variables: &[(&str, &str)]) -> Command {
         let mut command = Command::new(self.path("program"));
         command.args(arguments).envs(variables.iter().copied()).env("LD_LIBRARY_PATH", library());
-        command.current_dir(self.0.path()).output().expect("it runs")
+        command.current_dir(self.0.path());
+        command
     }
 
     /// The path of one of its files.

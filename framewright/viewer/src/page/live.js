@@ -1,31 +1,76 @@
-/** The page of `framewright serve`: it asks its server for the state, shows it, and asks for the next. */
-const live = { server: "none", version: 0, frame: 0, state: null, bar: null, view: null };
+/** The page of `framewright serve`, or of a program: it asks its server for the state, shows it, and asks for the next. */
+const live = { format: DATA.live, server: "none", version: 0, frame: 0, state: null, bar: null, view: null };
 
 /** What is going on, and what is wrong: above all views. */
 function addLiveBar() {
-  const bar = { status: element("p", { role: "status", id: "live-status" }), wrong: element("div", { role: "alert", id: "live-wrong" }) };
-  document.getElementById("body").before(element("section", { id: "live", "aria-label": "Live" }, bar.status, bar.wrong));
+  const bar = { status: element("p", { role: "status", id: "live-status" }), tools: element("div", { class: "controls", id: "live-tools" }), wrong: element("div", { role: "alert", id: "live-wrong" }) };
+  document.getElementById("body").before(element("section", { id: "live", "aria-label": "Live" }, bar.tools, bar.status, bar.wrong));
   live.bar = bar;
 }
 
 /** Settings, and pictures of the outputs. It stays while the other views are made anew. */
 function liveView() {
   if (!live.view) {
-    const view = { controls: element("div", { class: "controls" }), outputs: element("div", { class: "outputs" }) };
-    view.box = element("div", {}, view.controls, view.outputs);
+    const view = { controls: element("div", { class: "controls" }), findings: element("div", {}), outputs: element("div", { class: "outputs" }) };
+    view.box = element("div", {}, view.controls, view.findings, view.outputs);
     live.view = view;
   }
   return live.view.box;
 }
 
-/** Sends a choice. The state that follows shows it. */
-async function choose(choice) {
+/** Sends what was chosen. The state that follows shows it. */
+async function post(address, what) {
   try {
-    const answer = await fetch("choose", { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(choice) });
+    const answer = await fetch(address, { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(what) });
     if (!answer.ok) live.bar.status.textContent = await answer.text();
   } catch {
     live.bar.status.textContent = "The server doesn't answer: the choice is lost.";
   }
+}
+
+/** Settings, or a preset. */
+const choose = (choice) => post("choose", choice);
+
+/** A renderer of the program; whether its frame stays; the next one. */
+const look = (change) => post("look", change);
+
+/** Which renderer is shown, whether its frame stays, and ways to keep it. */
+function showTools(state) {
+  const { program } = state;
+  const shown = JSON.stringify([program?.renderers, program?.renderer, program?.held, live.frame > 0]);
+  if (shown === live.tools) return;
+  live.tools = shown;
+  const focused = document.activeElement?.id;
+  const button = (id, title, words, change) => element("button", { type: "button", id, title, onclick: () => look(change) }, words);
+  const saved = (address, title, words) => element("a", { href: address, title, download: "frame.html" }, words);
+  live.bar.tools.replaceChildren(...[
+    program?.renderers.length > 1 ? element("label", {}, "Renderer ", element("select", { id: "renderer", onchange: (event) => look({ renderer: Number(event.target.value) }) },
+      program.renderers.map(({ id, name }) => element("option", { value: String(id), selected: id === program.renderer }, name)))) : null,
+    program ? button("hold", "The page keeps the frame that it shows; the program goes on", program.held ? "Go on" : "Hold", { hold: !program.held }) : null,
+    program ? button("step", "Shows the next frame, and keeps it", "Step", "step") : null,
+    live.frame > 0 ? saved("frame.html", "The frame as a page of one file", "Save") : null,
+    live.frame > 0 ? saved("frame.html?sources=no", "The same without the texts of files, to send it to others", "Save without sources") : null,
+  ].filter(Boolean));
+  if (focused) document.getElementById(focused)?.focus();
+}
+
+/** What the validation layer found, each with the step and pass that it was found at. */
+function findingsOf(findings) {
+  if (findings.length === 0) return [];
+  const place = (at) => {
+    const step = /^step (\d+)/.exec(at)?.[1];
+    const key = step && models[0] ? models[0].stepKey(Number(step)) : null;
+    return key && has(key) ? link(key, at) : element("code", {}, at);
+  };
+  return [element("h2", {}, count(findings.length, "finding", "findings") + " of validation"),
+    element("ul", { class: "findings" }, findings.map(({ rule, text, at, times }) => element("li", {}, at ? [place(at), ": "] : null, element("code", {}, rule), times > 1 ? ` (${times} times)` : null, element("pre", {}, text))))];
+}
+
+function showFindings(state) {
+  const shown = JSON.stringify([state.program?.findings ?? [], live.frame]);
+  if (shown === live.findings) return;
+  live.findings = shown;
+  live.view.findings.replaceChildren(...findingsOf(state.program?.findings ?? []));
 }
 
 /** The control of a setting. */
@@ -121,7 +166,9 @@ function showMistake(mistake) {
 
 function showStatus() {
   const { state } = live;
-  live.bar.status.textContent = !state ? "" : state.busy ? "drawing …" : state.mistakes.length > 0 ? "" : state.took;
+  const { program } = state ?? {};
+  const found = program?.findings.length > 0 ? "; validation has " + count(program.findings.length, "finding", "findings") : "";
+  live.bar.status.textContent = !state ? "" : state.busy ? "drawing …" : program?.held ? `Frame ${program.frame} is held${found}` : state.mistakes.length > 0 ? "" : state.took + found;
 }
 
 /** Shows a state. Views are made anew only for another frame, or other texts. */
@@ -133,11 +180,13 @@ function showState(state, page) {
     live.texts = texts;
     const data = page ?? { plans: [], differences: null, devices: [], captures: [], texts: state.sources };
     if (data.plans[0]) data.plans[0].sources = sourcesOf(state, page);
-    showData({ ...data, live: true });
+    showData({ ...data, live: live.format });
   }
   if (state.times && models[0]) showTimes(state.times);
   showStatus();
   liveView();
+  showTools(state);
+  showFindings(state);
   showWrong(state);
   showControls(state);
   const outputs = JSON.stringify(state.outputs);
@@ -176,11 +225,16 @@ async function follow() {
       await new Promise((done) => setTimeout(done, 1000));
       continue;
     }
+    if (told && told.live.format_version !== live.format) {
+      live.bar.status.replaceChildren("Another version of Framewright answers: ", element("button", { type: "button", class: "link", id: "load-again", onclick: () => location.reload() }, "load its page"));
+      return;
+    }
     if (told) {
       // Another server counts anew.
       if (told.live.server !== live.server) Object.assign(live, { server: told.live.server, frame: 0, outputs: null });
       live.version = told.live.version;
       showState(told.live, told.page);
-    } else showStatus();
+    } else if (!live.state || live.state.program && !live.state.program.held) live.bar.status.textContent = live.state ? "The program has ended no frame for a while." : "The program has ended no frame yet.";
+    else showStatus();
   }
 }

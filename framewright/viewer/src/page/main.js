@@ -5,6 +5,7 @@ function viewsOf(data) {
   const alone = (name, title, make) => ({ name, title, make, once: true });
   return [
     data.live ? alone("live", "Live", liveView) : null,
+    data.saved ? alone("saved", "Frame", savedView) : null,
     data.differences ? alone("differences", "Differences", comparedView) : null,
     { name: "overview", title: "Overview", make: overviewView },
     // It stays itself while other Plans are shown.
@@ -158,6 +159,7 @@ function start() {
   addEventListener("beforeprint", () => { printing = true; VIEWS.forEach((view) => { makeView(view); view.parts.forEach((part) => part.redraw?.()); }); });
   addEventListener("afterprint", () => { printing = false; showView(state.view); });
   whatIf.page = DATA;
+  if (DATA.saved) addSavedBar(DATA.saved);
   showData(DATA);
   // The first address names its view, so that Back leads to it.
   if (location.hash === "") writeHash();

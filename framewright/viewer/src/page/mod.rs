@@ -40,6 +40,7 @@ const TEMPLATE: Template<'_> = Template {
         include_str!("details.js"),
         include_str!("live.js"),
         include_str!("what_if.js"),
+        include_str!("saved.js"),
         include_str!("main.js"),
     ),
     // Captured pictures lie beside the page, wherever that is.
@@ -85,8 +86,8 @@ pub struct DeviceDifferences {
 /// The data of a page.
 #[derive(Default, Serialize)]
 struct Data<'a> {
-    /// Whether the page asks its server for its data.
-    live: bool,
+    /// The form of states that the page shows, where it asks its server for them.
+    live: Option<u32>,
     plans: Vec<PlanData<'a>>,
     differences: Option<&'a Differences>,
     devices: &'a [DeviceDifferences],
@@ -124,13 +125,21 @@ pub(crate) fn page_of_compiler(page: &Page<'_>, what_if: &impl Serialize) -> ser
     html::page_of_modules(&TEMPLATE, &WhatIfData { data: data(page), what_if })
 }
 
-/// The page that asks its server for its data, again and again.
+/// The page that asks its server for its data, again and again: states of the form `format_version`.
 ///
 /// # Errors
 /// None that happens.
-pub fn live_page() -> serde_json::Result<String> {
+pub fn live_page(format_version: u32) -> serde_json::Result<String> {
     let template = Template { images: "'self'", asked: "'self'", ..TEMPLATE };
-    html::page(&template, &Data { live: true, ..Data::default() })
+    html::page(&template, &Data { live: Some(format_version), ..Data::default() })
+}
+
+/// A page that opens from disk, of data whose pictures lie within it.
+///
+/// # Errors
+/// None that happens.
+pub(crate) fn saved_page(data: &serde_json::Value) -> serde_json::Result<String> {
+    html::page(&Template { images: "data:", ..TEMPLATE }, data)
 }
 
 /// The data of a page, as JSON.
@@ -144,7 +153,7 @@ pub fn page_data(page: &Page<'_>) -> serde_json::Result<String> {
 fn data<'a>(page: &'a Page<'a>) -> Data<'a> {
     let plans = page.plans.iter().map(plan_data).collect();
     let Page { differences, devices, captures, .. } = *page;
-    Data { live: false, plans, differences, devices, captures }
+    Data { live: None, plans, differences, devices, captures }
 }
 
 fn plan_data<'a>(shown: &'a ShownPlan<'a>) -> PlanData<'a> {

@@ -48,7 +48,7 @@ function dearestImages(model) {
 
 /** The picture of an output: of the server's last frame, or captured. */
 function pictureOf(model) {
-  const output = live.state?.outputs[0];
+  const output = (live.state ?? DATA.saved)?.outputs[0];
   if (output) return element("img", { src: output.picture, alt: output.name });
   const outputs = new Set(model.plan.images.filter(({ role }) => !role.transient).map((image) => image.name));
   const drawn = DATA.captures.filter((one) => one.data);

@@ -1,6 +1,6 @@
 /** The files, line by line. What is selected is shown at its line. */
 function sourceView(model) {
-  if (model.sources.length === 0) return element("p", {}, DATA.live ? "There is no file to show." : "The Plan came from a file of its own: the pipeline's text isn't in it.");
+  if (model.sources.length === 0) return element("p", {}, DATA.live ? "There is no file to show." : "This page has no texts of files: they were left out, or the Plan came from a file of its own.");
   const files = model.sources.map(({ name, text }) => {
     const lines = text.split("\n").map((line) => element("li", {}, colored(line)));
     return { name, lines, made: element("div", { "data-file": name }, element("h2", {}, name), element("ol", { class: "source" }, lines)) };

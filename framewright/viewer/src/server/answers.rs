@@ -6,24 +6,31 @@
 //! | `GET /state/N` | the state, as soon as its number is another one than N; 204 if that takes long |
 //! | `GET /state/SERVER/N` | the same; at once, if N is a number of another server |
 //! | `GET /picture/…` | a picture of the last good frame |
-//! | `POST /choose` | takes a [`Choice`] as JSON |
+//! | `GET /frame.html` | the last good frame as a page of one file; with `?sources=no` without texts of files; 404 before the first |
+//! | `GET /about` | what answers here, as JSON: see [`About`] |
+//! | `POST /choose` | takes a [`Choice`] as JSON; 503 while too many wait |
+//! | `POST /look` | takes a [`LookChange`] as JSON |
 //! | `POST /pictures` | takes [`AskedPictures`] as JSON, and answers with the pictures |
 
+use super::about::About;
+use super::connections;
 use super::controls::Choice;
+use super::look::{Look, LookChange};
 use super::published_state::PublishedState;
 use super::questions::{AskedPictures, MOST_PICTURES, Question};
+use super::saved_frame;
 use crate::page;
+use axum::Router;
 use axum::body::Bytes;
 use axum::extract::{DefaultBodyLimit, Path, Request, State};
 use axum::http::header::{
-    CACHE_CONTROL, CONTENT_SECURITY_POLICY, CONTENT_TYPE, HOST, HeaderName, HeaderValue, ORIGIN, REFERRER_POLICY,
-    X_CONTENT_TYPE_OPTIONS,
+    CACHE_CONTROL, CONTENT_DISPOSITION, CONTENT_SECURITY_POLICY, CONTENT_TYPE, HOST, HeaderName, HeaderValue, ORIGIN,
+    REFERRER_POLICY, X_CONTENT_TYPE_OPTIONS,
 };
-use axum::http::{Method, StatusCode};
+use axum::http::{Method, StatusCode, Uri};
 use axum::middleware::{Next, from_fn_with_state};
 use axum::response::{IntoResponse, Response};
 use axum::routing::{get, post};
-use axum::{Router, serve};
 use std::io;
 use std::net::{IpAddr, SocketAddr, TcpListener};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -38,6 +45,10 @@ const LONGEST_WAIT: Duration = Duration::from_secs(25);
 const MOST_QUESTIONS: usize = 16;
 /// A choice, or a question for pictures, has at most this many bytes.
 const LARGEST_CHOICE: usize = 64 << 10;
+/// What is sent arrives within this time, or is refused.
+const LONGEST_SENDING: Duration = Duration::from_secs(10);
+/// At most this many choices wait for the program.
+const MOST_CHOICES: usize = 256;
 
 /// Nobody looks any more when nobody asked for this long: browsers ask again at once.
 const GONE_AFTER: Duration = Duration::from_secs(40);
@@ -52,8 +63,9 @@ struct ServerState {
     watched: Arc<AtomicBool>,
     page: Bytes,
     shown: Receiver<PublishedState>,
-    choices: mpsc::Sender<Choice>,
+    choices: mpsc::SyncSender<Choice>,
     questions: mpsc::SyncSender<Question>,
+    look: Arc<Mutex<Look>>,
 }
 
 /// A server of the live page, on a thread of its own, as long as this lives.
@@ -64,6 +76,7 @@ pub struct Server {
     publish: Sender<PublishedState>,
     choices: mpsc::Receiver<Choice>,
     questions: mpsc::Receiver<Question>,
+    look: Arc<Mutex<Look>>,
     watched: Arc<AtomicBool>,
 }
 
@@ -79,9 +92,10 @@ impl Server {
         let address = listener.local_addr()?;
         let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build()?;
         let (publish, shown) = watch::channel(PublishedState::default());
-        let (send, choices) = mpsc::channel();
+        let (send, choices) = mpsc::sync_channel(MOST_CHOICES);
         let (ask, questions) = mpsc::sync_channel(MOST_QUESTIONS);
-        let page = page::live_page()?.into();
+        let look = Arc::<Mutex<Look>>::default();
+        let page = page::live_page(About::FORMAT_VERSION)?.into();
         let (token, watched) = (token.map(Arc::from), Arc::new(AtomicBool::new(false)));
         let shared = ServerState {
             address,
@@ -92,6 +106,7 @@ impl Server {
             shown,
             choices: send,
             questions: ask,
+            look: Arc::clone(&look),
         };
         let listener = {
             let _entered = runtime.enter();
@@ -101,12 +116,12 @@ impl Server {
             runtime.block_on(async {
                 let mut shown = shared.shown.clone();
                 tokio::spawn(forget_who_left(shared.clone()));
-                tokio::spawn(async move { drop(serve(listener, routes(shared)).await) });
+                tokio::spawn(connections::answer(listener, routes(shared)));
                 // It ends with whom publishes; what is on its way ends with it.
                 while shown.changed().await.is_ok() {}
             });
         })?;
-        Ok(Server { address, token, publish, choices, questions, watched })
+        Ok(Server { address, token, publish, choices, questions, look, watched })
     }
 
     /// Where the page is, as a browser takes it.
@@ -144,6 +159,16 @@ impl Server {
     pub fn questions(&self) -> &mpsc::Receiver<Question> {
         &self.questions
     }
+
+    /// What people look at.
+    pub(crate) fn look(&self) -> Look {
+        *self.look.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// The state that all browsers have.
+    pub(crate) fn published(&self) -> PublishedState {
+        self.publish.borrow().clone()
+    }
 }
 
 impl ServerState {
@@ -165,7 +190,10 @@ fn routes(shared: ServerState) -> Router {
             get(|shared, Path((server, after)): Path<(String, u64)>| state(shared, Some(server), after)),
         )
         .route(&at("/picture/{*name}"), get(picture))
+        .route(&at("/frame.html"), get(frame))
+        .route(&at("/about"), get(about))
         .route(&at("/choose"), post(choose))
+        .route(&at("/look"), post(look))
         .route(&at("/pictures"), post(pictures))
         // Browsers ask for an icon, and complain where there is no answer.
         .route("/favicon.ico", get(StatusCode::NO_CONTENT))
@@ -192,8 +220,13 @@ async fn own_pages_alone(State(shared): State<ServerState>, request: Request, ne
     let host = text(HOST).filter(|host| is_own(&shared, host));
     let origin =
         text(ORIGIN).is_none_or(|origin| origin.strip_prefix("http://").is_some_and(|from| Some(from) == host));
-    let form = request.method() != Method::POST || text(CONTENT_TYPE) == Some("application/json");
+    let is_sent = request.method() == Method::POST;
+    let form = !is_sent || text(CONTENT_TYPE) == Some("application/json");
     let mut answer = match host.is_some() && origin && form {
+        true if is_sent => match timeout(LONGEST_SENDING, next.run(request)).await {
+            Ok(answer) => answer,
+            Err(_) => StatusCode::REQUEST_TIMEOUT.into_response(),
+        },
         true => next.run(request).await,
         false => (StatusCode::FORBIDDEN, "only pages of this server are answered").into_response(),
     };
@@ -249,11 +282,50 @@ async fn picture(State(shared): State<ServerState>, Path(name): Path<String>) ->
     }
 }
 
+/// The last good frame as a file.
+async fn frame(State(shared): State<ServerState>, uri: Uri) -> Response {
+    let shown = shared.shown.borrow().clone();
+    let with_sources = uri.query() != Some("sources=no");
+    // It takes a moment: meanwhile others are answered.
+    let page = tokio::task::spawn_blocking(move || saved_frame::saved_page(&shown, with_sources, None)).await;
+    match page {
+        Ok(Ok(Some(page))) => {
+            let headers = [
+                (CONTENT_TYPE, "text/html; charset=utf-8"),
+                (CONTENT_DISPOSITION, "attachment; filename=\"frame.html\""),
+            ];
+            (headers, page).into_response()
+        }
+        Ok(Ok(None)) => (StatusCode::NOT_FOUND, "there is no frame yet").into_response(),
+        Ok(Err(_)) | Err(_) => StatusCode::INTERNAL_SERVER_ERROR.into_response(),
+    }
+}
+
+async fn about() -> Response {
+    match serde_json::to_string(&About::own()) {
+        Ok(about) => ([(CONTENT_TYPE, "application/json")], about).into_response(),
+        Err(_) => StatusCode::INTERNAL_SERVER_ERROR.into_response(),
+    }
+}
+
+async fn look(State(shared): State<ServerState>, body: Bytes) -> Response {
+    match serde_json::from_slice::<LookChange>(&body) {
+        Ok(change) => {
+            shared.look.lock().unwrap_or_else(PoisonError::into_inner).take(change);
+            StatusCode::NO_CONTENT.into_response()
+        }
+        Err(problem) => (StatusCode::BAD_REQUEST, format!("no look: {problem}")).into_response(),
+    }
+}
+
 async fn choose(State(shared): State<ServerState>, body: Bytes) -> Response {
     match serde_json::from_slice(&body) {
-        Ok(choice) => match shared.choices.send(choice) {
+        Ok(choice) => match shared.choices.try_send(choice) {
             Ok(()) => StatusCode::NO_CONTENT.into_response(),
-            Err(_) => StatusCode::SERVICE_UNAVAILABLE.into_response(),
+            Err(mpsc::TrySendError::Full(_)) => {
+                (StatusCode::SERVICE_UNAVAILABLE, "the program takes no choices: it ends no frame").into_response()
+            }
+            Err(mpsc::TrySendError::Disconnected(_)) => StatusCode::SERVICE_UNAVAILABLE.into_response(),
         },
         Err(problem) => (StatusCode::BAD_REQUEST, format!("no choice: {problem}")).into_response(),
     }

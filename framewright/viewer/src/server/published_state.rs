@@ -23,7 +23,7 @@ pub struct PublishedState {
 /// The part of a state that changes even where the last good frame stays.
 #[derive(Debug, Serialize)]
 pub struct LiveState<'a> {
-    /// The version of this form.
+    /// The version of this form: [`About::FORMAT_VERSION`](super::About::FORMAT_VERSION).
     pub format_version: u32,
     /// What tells this server from earlier ones of the same address.
     pub server: &'a str,
@@ -50,13 +50,57 @@ pub struct LiveState<'a> {
     pub outputs: &'a [Output],
     /// What the last good frame took, in words.
     pub took: &'a str,
+    /// What it is of, where a program serves the page; `None`: `serve` does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub program: Option<LiveProgram<'a>>,
     /// How long the last frames took, where it changes from state to state; `None`: the page's own data has it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub times: Option<&'a Times>,
 }
 
-/// A picture of an output.
+/// What the page of a program looks at.
 #[derive(Debug, Serialize)]
+pub struct LiveProgram<'a> {
+    /// The renderers that the program draws with, in the order in which they were first seen.
+    pub renderers: &'a [LiveRenderer],
+    /// The id of the one that is shown.
+    pub renderer: u64,
+    /// Whether the frame that is shown stays.
+    pub held: bool,
+    /// The number of the frame that is shown, from 0; `None`: it has drawn none.
+    pub frame: Option<u64>,
+    /// The name of the device.
+    pub device: &'a str,
+    /// The name and version of its driver.
+    pub driver: &'a str,
+    /// What the validation layer found, if the device has one.
+    pub findings: &'a [ShownFinding],
+}
+
+/// A renderer of a program.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct LiveRenderer {
+    /// [`Renderer::id`](framewright::Renderer::id).
+    pub id: u64,
+    /// Its name, which no other one has: of several renderers of one pipeline, the second is called `… (2)`.
+    pub name: String,
+}
+
+/// A message of the validation layer.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct ShownFinding {
+    /// The rule's name.
+    pub rule: String,
+    /// The layer's words.
+    pub text: String,
+    /// The step and pass that was recorded; `None`: the layer doesn't tell.
+    pub at: Option<String>,
+    /// How often it was said.
+    pub times: usize,
+}
+
+/// A picture of an output.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Output {
     /// The output's name.
     pub name: String,
@@ -65,7 +109,7 @@ pub struct Output {
 }
 
 /// A file of the pipeline.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct SourceText {
     /// Its path, counted from the pipeline's folder.
     pub name: String,

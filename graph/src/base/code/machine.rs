@@ -66,4 +66,10 @@ room! {
     /// it; the archive of a release has it beside the command, as `what-if.wasm`. A file of that name that is something else is this
     /// mistake too.
     NO_MODULE = 1311,
+
+    /// No viewer of a program answers.
+    ///
+    /// A program with a viewer prints the address of its page when it starts. A part of the address is secret, and another one at each
+    /// start. To a program on another machine a tunnel leads: `ssh -L 7117:127.0.0.1:7117 MACHINE`.
+    NO_VIEWER = 1312,
 }
