@@ -78,6 +78,15 @@ pub(crate) enum Error {
         text::escape(reason)
     )]
     NoWindow { reason: String },
+    /// RenderDoc isn't in this process.
+    #[error(
+        "RenderDoc isn't loaded: it starts the programs that it looks into\n\
+         help: renderdoccmd capture --wait-for-exit --working-dir . framewright run …; Debian has it in renderdoccmd and librenderdoc"
+    )]
+    NoRenderDoc,
+    /// RenderDoc took nothing.
+    #[error("RenderDoc took nothing of frame {frame}: it isn't in the way to this device, or can't replay it")]
+    NothingTaken { frame: u32 },
     /// A library of the window system is missing.
     #[error(
         "no window can be opened: a library is missing, which Debian has in {}\nhelp: apt-get install {}, or what has it on another system",
@@ -124,6 +133,9 @@ pub(crate) enum Error {
     /// A file is no Plan, or not a right one.
     #[error("{}: {}", text::path(path), text::escape_lines(problem))]
     NoPlan { path: PathBuf, problem: String },
+    /// A file is no report of a run, or not one of this Plan.
+    #[error("{}: {}", text::path(path), text::escape_lines(problem))]
+    NoReport { path: PathBuf, problem: String },
     /// The Plan doesn't know what is to be explained.
     #[error("there is no `{}` in the Plan{}", text::escape(thing), help.as_ref().map_or_else(String::new, |help| format!("\nhelp: {help}")))]
     NothingToExplain { thing: String, help: Option<String> },
@@ -140,6 +152,9 @@ pub(crate) enum Error {
     /// Captured pictures have no place but a page.
     #[error("`--capture` puts pictures on a page: add `--format html`")]
     CaptureWithoutPage,
+    /// Times have no place but a page.
+    #[error("`--report` puts times on a page: add `--format html`")]
+    ReportWithoutPage,
     /// A graph that no picture can hold.
     #[error(
         "a picture of {nodes} passes can't be read: at most {most} are drawn; --format dot or json holds any number"
@@ -376,6 +391,7 @@ impl Error {
             | Error::NoFlicker { .. }
             | Error::NoBaseline { .. }
             | Error::NoPlan { .. }
+            | Error::NoReport { .. }
             | Error::NothingToExplain { .. }
             | Error::TooManyNodes { .. }
             | Error::OutsideResults { .. }
@@ -406,6 +422,7 @@ impl Error {
             | Error::ProfileIsNoDevice { .. }
             | Error::Lab(LabError::Sweep { .. })
             | Error::CaptureWithoutPage
+            | Error::ReportWithoutPage
             | Error::ChoiceForPlan { .. }
             | Error::OwnChoice { .. }
             | Error::OtherSweep { .. }
@@ -425,6 +442,8 @@ impl Error {
             | Error::Cache { .. }
             | Error::NoWindow { .. }
             | Error::NoWindowLibrary { .. }
+            | Error::NoRenderDoc
+            | Error::NothingTaken { .. }
             | Error::Port { .. }
             | Error::Print(_)
             | Error::Restart(_)

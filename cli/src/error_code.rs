@@ -23,18 +23,23 @@ impl Error {
             }
             Error::Vulkan(error) => error.code(),
             Error::NoWindow { .. } | Error::NoWindowLibrary { .. } => Code::NO_WINDOW,
+            Error::NoRenderDoc | Error::NothingTaken { .. } => Code::RENDERDOC,
             Error::Lab(error) => of_lab(error),
             Error::Held { .. } => Code::FOLDER_HELD,
             Error::OtherSweep { .. }
             | Error::Results { .. }
             | Error::Joining(_)
             | Error::NoFlicker { .. }
+            | Error::NoReport { .. }
             | Error::NoBaseline { .. } => Code::RESULTS,
             Error::NoPlan { .. } | Error::Plan(_) => Code::NO_PLAN,
             Error::NothingToExplain { .. } | Error::UnknownCode { .. } => Code::NOTHING_TO_EXPLAIN,
             Error::CustomPass { .. } => Code::CUSTOM_UNKNOWN,
             Error::TooManyNodes { .. } | Error::TooManyPairs { .. } => Code::TOO_MANY,
-            Error::CaptureWithoutPage | Error::ChoiceForPlan { .. } | Error::OwnChoice { .. } => Code::OPTIONS,
+            Error::CaptureWithoutPage
+            | Error::ReportWithoutPage
+            | Error::ChoiceForPlan { .. }
+            | Error::OwnChoice { .. } => Code::OPTIONS,
             Error::OtherResults { .. }
             | Error::ReadAndWritten { .. }
             | Error::WrittenTwice { .. }

@@ -1,27 +1,31 @@
 //! The live page: a pipeline and a scene that are drawn anew whenever their files or choices change. What is wrong leaves the last good frame.
 
+mod changes;
+
 use crate::command_line::serving::ServeArguments;
 use crate::drawing::captures::{self, Drawing};
 use crate::error::Error;
 use crate::files::inputs;
 use crate::planning::{self, totals};
 use crate::system::{Exit, interrupt, text};
+use changes::Changes;
 use framewright::{Choices, Pipeline, PlannedFrame, SceneRenderer};
 use framewright_graph::base::{self, Diagnostic, ReadFiles, SourceFile, Sources};
 use framewright_graph::frame::DrawList;
-use framewright_graph::plan::Detail;
+use framewright_graph::plan::{Detail, SettingUsed};
 use framewright_lab::outputs;
 use framewright_lab::picture::FileFormat;
 use framewright_passes::scene::{Scene, SceneError};
 use framewright_viewer::{
-    Choice, Controls, LastFrames, LiveState, Output, Page, PublishedState, ShownPlan, SourceText, Thumbnail, Times,
+    Choice, Controls, History, KeptState, LastFrames, LiveState, Output, Page, PublishedState, ShownPlan, SourceText,
+    Thumbnail, Times,
 };
 use framewright_vulkan::{Device, ExecutorOptions, Helper};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::hash::{BuildHasher, RandomState};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 /// Files that never rest are read all the same, after this many waits.
 const MOST_WAITS: u32 = 20;
@@ -45,6 +49,9 @@ pub(crate) struct Session<'a> {
     begun: bool,
     good: GoodFrame,
     wrong: SessionMistakes,
+    /// What changed since the last good frame.
+    changes: Changes,
+    history: Arc<History>,
 }
 
 /// A thing that was read, with the files that it was read from; `None`: they were wrong.
@@ -63,6 +70,10 @@ struct GoodFrame {
     outputs: Vec<Output>,
     pictures: Arc<BTreeMap<String, Arc<[u8]>>>,
     took: String,
+    /// The Plan's JSON form, with what it was drawn with.
+    plan: Arc<str>,
+    settings: Vec<SettingUsed>,
+    times: Option<Times>,
 }
 
 /// What keeps a newer frame from being drawn.
@@ -97,6 +108,8 @@ impl<'a> Session<'a> {
             begun: false,
             good: GoodFrame::default(),
             wrong: SessionMistakes { mistakes: json!([]), ..SessionMistakes::default() },
+            changes: Changes::default(),
+            history: Arc::default(),
         }
     }
 
@@ -121,13 +134,23 @@ impl<'a> Session<'a> {
     pub(crate) fn choose(&mut self, choice: Choice) {
         match choice {
             Choice::Set(values) => self.chosen.extend(values),
-            Choice::Preset(preset) => {
-                self.chosen.clear();
-                self.preset = preset;
-                // Presets are chosen when a pipeline is read.
-                self.pipeline = FileValue::nothing();
+            Choice::Preset(preset) => self.begin_with(preset),
+            Choice::Exactly { preset, set } => {
+                if preset != self.preset {
+                    self.begin_with(preset);
+                }
+                self.chosen = set;
             }
         }
+    }
+
+    /// Takes back all that was chosen, and chooses a preset.
+    fn begin_with(&mut self, preset: Option<String>) {
+        self.chosen.clear();
+        self.preset = preset;
+        // Presets are chosen when a pipeline is read.
+        self.changes.add(self.pipeline.read.changes());
+        self.pipeline = FileValue::nothing();
     }
 
     /// Draws anew, and says on standard error how that went. What is wrong leaves the last good frame.
@@ -138,9 +161,14 @@ impl<'a> Session<'a> {
         let begun = Instant::now();
         self.version += 1;
         let first = !std::mem::replace(&mut self.begun, true);
+        self.changes.add(self.scene.read.changes());
+        self.changes.add(self.pipeline.read.changes());
         match self.drawn() {
             Ok(good) => {
                 let seconds = begun.elapsed().as_secs_f64();
+                if good.page.is_some() {
+                    self.remember(&good);
+                }
                 self.good = GoodFrame { took: format!("{}, drawn in {seconds:.2} s", good.took), ..good };
                 self.wrong = SessionMistakes { mistakes: json!([]), ..SessionMistakes::default() };
                 text::say(&self.good.took);
@@ -153,6 +181,30 @@ impl<'a> Session<'a> {
             }
             Err(error) => Err(error),
         }
+    }
+
+    /// Keeps a frame, so that later ones can be compared with it.
+    fn remember(&mut self, good: &GoodFrame) {
+        let before = self.history.last().map(|_| &*self.good.settings);
+        let of_outputs = good.outputs.iter().filter_map(|output| {
+            let address = output.picture.strip_prefix("picture/")?;
+            Some((address.to_owned(), Arc::clone(good.pictures.get(address)?)))
+        });
+        let state = KeptState {
+            version: good.version,
+            drawn_at: SystemTime::now()
+                .duration_since(UNIX_EPOCH)
+                .map_or(0, |since| u64::try_from(since.as_millis()).unwrap_or(u64::MAX)),
+            changed: self.changes.take(before, &good.settings),
+            chosen: self.chosen.clone(),
+            preset: self.preset.clone(),
+            name: self.arguments.pipeline.file.to_string_lossy().into_owned(),
+            plan: Arc::clone(&good.plan),
+            times: good.times.clone(),
+            took: good.took.clone(),
+            pictures: of_outputs.collect(),
+        };
+        Arc::make_mut(&mut self.history).keep(state);
     }
 
     /// The state of the page.
@@ -179,12 +231,16 @@ impl<'a> Session<'a> {
         };
         let live = serde_json::to_string(&live)?;
         let page = self.good.page.as_deref().unwrap_or("null");
-        let json = format!("{{\"live\":{live},\"page\":{page}}}").into();
+        let history = self.history.listed()?;
+        let json = format!("{{\"live\":{live},\"page\":{page},\"history\":{history}}}").into();
+        let mut pictures = (*self.good.pictures).clone();
+        pictures.extend(self.history.pictures());
         Ok(PublishedState {
             version: self.version,
             server: Arc::clone(&self.server),
             json,
-            pictures: Arc::clone(&self.good.pictures),
+            pictures: Arc::new(pictures),
+            history: Arc::clone(&self.history),
         })
     }
 
@@ -273,6 +329,7 @@ fn drawn(
     }
     let (plan, times) = (&planned.plan, drawn.times);
     let name = arguments.pipeline.file.to_string_lossy();
+    let (kept_plan, settings) = (plan.to_json()?.into(), plan.settings.clone());
     let devices = planning::on_other_devices(pipeline, choices, &options, (&*name, plan))?;
     let objects = |list: DrawList| scene.count(list);
     let detail = Detail { objects: Some(&objects), verbose: true };
@@ -286,6 +343,9 @@ fn drawn(
         outputs,
         pictures: Arc::new(files),
         took: totals::sentence(&plan.totals),
+        plan: kept_plan,
+        settings,
+        times,
     })
 }
 
@@ -306,7 +366,7 @@ fn draw_frames(
 ) -> Result<DrawnFrames, Error> {
     let poison = arguments.planning.poison;
     let options = ExecutorOptions { poison, timestamps: true, ..ExecutorOptions::default() };
-    let mut last = LastFrames::default();
+    let mut last = LastFrames::on(device);
     let mut prepared = SceneRenderer::new(device, planned.parts(), &mut pipeline.assets, scene, &options)?;
     for drawn in 0..arguments.frames {
         if interrupt::asked() {

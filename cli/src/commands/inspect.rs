@@ -2,9 +2,11 @@
 
 use crate::command_line::args::{InspectArguments, PlanFormat};
 use crate::drawing::captures::{self, Drawing};
+use crate::drawing::timed;
 use crate::error::Error;
 use crate::files::inputs::{self, FileRole};
 use crate::files::outputs;
+use crate::files::report;
 use crate::planning::{self, device, helper, plan_file};
 use crate::system::{Exit, interrupt, text};
 use framewright_graph::base::ReadFiles;
@@ -13,7 +15,7 @@ use framewright_graph::device::MemoryEstimate;
 use framewright_graph::frame::DrawList;
 use framewright_graph::plan::{Detail, Plan};
 use framewright_lab::picture::FileFormat;
-use framewright_viewer::{MOST_NODES, Page, ShownPlan, Thumbnail};
+use framewright_viewer::{MOST_NODES, Page, ShownPlan, Thumbnail, Times};
 use framewright_vulkan::{Device, Helper};
 use std::path::Path;
 
@@ -30,6 +32,7 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
     let subject = &arguments.subject;
     subject.scene.iter().for_each(|file| framewright::expect_scene(file, &read));
     subject.device.iter().for_each(|file| read.expect(FileRole::PROFILE.recorded, Path::new(file)));
+    arguments.report.iter().for_each(|file| read.expect(FileRole::REPORT.recorded, file));
     let spare = || outputs::prepare(arguments.output.as_deref().into_iter(), &read);
     spare()?;
     let helper = helper::of(&arguments.pipeline)?;
@@ -39,6 +42,7 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
     if arguments.capture && arguments.format != PlanFormat::Html {
         return Err(Error::CaptureWithoutPage);
     }
+    expect_page(arguments)?;
     let drawn_on = if arguments.capture { Some(open(&helper)?) } else { None };
     let profile = match &drawn_on {
         Some(device) => device.profile(),
@@ -57,15 +61,17 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
     let name = arguments.pipeline.file.to_string_lossy();
     let shown = shown(arguments.format, plan, detail, || {
         let devices = planning::on_other_devices(&mut pipeline, &choices, &options, (&*name, plan))?;
-        let captures = match (&drawn_on, &scene, &arguments.output) {
+        let (captures, times) = match (&drawn_on, &scene, &arguments.output) {
             (Some(device), Some(scene), Some(page)) => {
                 let (made, pipeline) = ((plan, &planned.frame), &mut pipeline);
-                captured(Drawing::new(device, pipeline, made, scene, options), page, &read)?
+                let times = timed::times(device, made, &mut pipeline.assets, scene)?;
+                (captured(Drawing::new(device, pipeline, made, scene, options), page, &read)?, times)
             }
-            _ => Vec::new(),
+            _ => (Vec::new(), reported(arguments, plan, &read)?),
         };
         let detail = Detail { verbose: true, ..detail };
-        let shown = ShownPlan { name: name.into_owned(), plan, detail, sources: Some(&pipeline.sources), times: None };
+        let (sources, times) = (Some(&*pipeline.sources), times.as_ref());
+        let shown = ShownPlan { name: name.into_owned(), plan, detail, sources, times };
         Ok(framewright_viewer::page(&Page {
             plans: vec![shown],
             differences: None,
@@ -80,24 +86,39 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
 fn inspect_plan(arguments: &InspectArguments, read: &ReadFiles) -> Result<Exit, Error> {
     let InspectArguments { pipeline, subject, capture, .. } = arguments;
     plan_file::nothing_chosen(pipeline, subject, capture.then_some("--capture"))?;
+    expect_page(arguments)?;
     read.expect(FileRole::PLAN.recorded, &pipeline.file);
+    arguments.report.iter().for_each(|file| read.expect(FileRole::REPORT.recorded, file));
     let spare = || outputs::prepare(arguments.output.as_deref().into_iter(), read);
     spare()?;
     let plan = plan_file::read(&pipeline.file, read)?;
     spare()?;
     let detail = Detail { verbose: arguments.verbose, ..Detail::default() };
     let shown = shown(arguments.format, &plan, detail, || {
-        let detail = Detail { verbose: true, ..detail };
+        let times = reported(arguments, &plan, read)?;
         let shown = ShownPlan {
             name: pipeline.file.to_string_lossy().into_owned(),
             plan: &plan,
-            detail,
+            detail: Detail { verbose: true, ..detail },
             sources: None,
-            times: None,
+            times: times.as_ref(),
         };
         Ok(framewright_viewer::page(&Page { plans: vec![shown], differences: None, devices: &[], captures: &[] })?)
     })?;
     put(arguments, &shown, read)
+}
+
+/// Times are for pages alone.
+fn expect_page(arguments: &InspectArguments) -> Result<(), Error> {
+    match arguments.report.is_some() && arguments.format != PlanFormat::Html {
+        true => Err(Error::ReportWithoutPage),
+        false => Ok(()),
+    }
+}
+
+/// The times in the report that the command line names.
+fn reported(arguments: &InspectArguments, plan: &Plan, read: &ReadFiles) -> Result<Option<Times>, Error> {
+    arguments.report.as_deref().map(|file| report::times(file, plan, read)).transpose()
 }
 
 /// A Plan in a form; `page` makes that of a page.

@@ -6,16 +6,20 @@
 //! ```
 
 mod graph;
+mod history;
 pub mod html;
 mod page;
 mod program;
 mod server;
 mod times;
+mod trace;
 mod xml;
 
 pub use graph::{dot, mermaid, svg};
+pub use history::{History, KeptState};
 pub use page::{DeviceDifferences, MOST_NODES, Page, ShownPlan, Thumbnail, live_page, page, page_data};
 pub use program::Viewer;
 pub use server::{Choice, Controls, LiveState, Output, PublishedState, Server, SourceText};
-pub use times::{LastFrames, Spread, StepTimes, Times};
+pub use times::{LastFrames, Spread, StepTimes, TimedDevice, Times};
+pub use trace::{TracedFrame, trace};
 pub use xml::escaped as escape_xml;

@@ -119,20 +119,32 @@ impl Viewer {
             match choice {
                 Choice::Set(values) => {
                     for (name, value) in values {
-                        match renderer.set(name, value) {
-                            Ok(()) => drop(self.chosen.insert(name.clone(), value.clone())),
-                            Err(error) => refused.push(error),
-                        }
+                        refused.extend(self.set(renderer, name, value).err());
                     }
                 }
-                Choice::Preset(preset) => {
-                    std::mem::take(&mut self.chosen).keys().for_each(|name| renderer.unset(name));
-                    refused.extend(renderer.preset(preset.as_deref()).err());
+                Choice::Preset(preset) => refused.extend(self.take_back(renderer, preset.as_deref()).err()),
+                Choice::Exactly { preset, set } => {
+                    refused.extend(self.take_back(renderer, preset.as_deref()).err());
+                    for (name, value) in set {
+                        refused.extend(self.set(renderer, name, value).err());
+                    }
                 }
             }
             self.mistakes = refused.iter().map(mistake).collect();
         }
         !choices.is_empty()
+    }
+
+    fn set(&mut self, renderer: &mut Renderer, name: &str, value: &str) -> Result<(), Error> {
+        renderer.set(name, value)?;
+        self.chosen.insert(name.to_owned(), value.to_owned());
+        Ok(())
+    }
+
+    /// Takes back all that was chosen, and chooses a preset.
+    fn take_back(&mut self, renderer: &mut Renderer, preset: Option<&str>) -> Result<(), Error> {
+        std::mem::take(&mut self.chosen).keys().for_each(|name| renderer.unset(name));
+        renderer.preset(preset)
     }
 
     fn show_plan(&mut self, renderer: &Renderer) -> Result<(), Error> {
@@ -154,7 +166,7 @@ impl Viewer {
             pictures: Arc::default(),
             frame: None,
         };
-        self.last.clear();
+        self.last = LastFrames::on(renderer.device());
         Ok(())
     }
 
@@ -222,6 +234,7 @@ impl Viewer {
             server: Arc::clone(&self.id),
             json: format!("{{\"live\":{live},\"page\":{}}}", self.shown.page).into(),
             pictures: Arc::clone(&self.shown.pictures),
+            history: Arc::default(),
         });
         Ok(())
     }

@@ -5,6 +5,7 @@ function viewsOf(data) {
   const alone = (name, title, make) => ({ name, title, make, once: true });
   return [
     data.live ? alone("live", "Live", liveView) : null,
+    data.live && past.states.length > 0 ? alone("history", "History", historyView) : null,
     data.differences ? alone("differences", "Differences", comparedView) : null,
     { name: "overview", title: "Overview", make: overviewView },
     { name: "graph", title: "Graph", make: graphView },

@@ -22,6 +22,7 @@ const TEMPLATE: Template<'_> = Template {
     style: include_str!("page.css"),
     script: concat!(
         include_str!("elements.js"),
+        include_str!("times.js"),
         include_str!("model.js"),
         include_str!("selection.js"),
         include_str!("overview.js"),
@@ -37,6 +38,7 @@ const TEMPLATE: Template<'_> = Template {
         include_str!("source.js"),
         include_str!("pictures.js"),
         include_str!("details.js"),
+        include_str!("history.js"),
         include_str!("live.js"),
         include_str!("main.js"),
     ),
@@ -147,6 +149,14 @@ pub fn live_page() -> serde_json::Result<String> {
 /// If a Plan has no JSON form.
 pub fn page_data(page: &Page<'_>) -> serde_json::Result<String> {
     serde_json::to_string(&data(page))
+}
+
+/// The data of a page, for a member to be added.
+///
+/// # Errors
+/// If a Plan has no JSON form.
+pub(crate) fn page_value(page: &Page<'_>) -> serde_json::Result<serde_json::Value> {
+    serde_json::to_value(data(page))
 }
 
 fn data<'a>(page: &'a Page<'a>) -> Data<'a> {

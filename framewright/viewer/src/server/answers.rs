@@ -143,6 +143,7 @@ fn routes(shared: ServerState) -> Router {
             get(|shared, Path((server, after)): Path<(String, u64)>| state(shared, Some(server), after)),
         )
         .route(&at("/picture/{*name}"), get(picture))
+        .route(&at("/compare/{a}/{b}"), get(compare))
         .route(&at("/choose"), post(choose))
         // Browsers ask for an icon, and complain where there is no answer.
         .route("/favicon.ico", get(StatusCode::NO_CONTENT))
@@ -224,6 +225,15 @@ async fn picture(State(shared): State<ServerState>, Path(name): Path<String>) ->
     match picture {
         Some(png) => ([(CONTENT_TYPE, "image/png")], Bytes::from_owner(png)).into_response(),
         None => StatusCode::NOT_FOUND.into_response(),
+    }
+}
+
+async fn compare(State(shared): State<ServerState>, Path((a, b)): Path<(u64, u64)>) -> Response {
+    let history = Arc::clone(&shared.shown.borrow().history);
+    match history.compared(a, b) {
+        Ok(Some(data)) => ([(CONTENT_TYPE, "application/json")], data).into_response(),
+        Ok(None) => (StatusCode::NOT_FOUND, "one of the states is forgotten").into_response(),
+        Err(_) => StatusCode::INTERNAL_SERVER_ERROR.into_response(),
     }
 }
 
