@@ -27,10 +27,15 @@ fn lv_10_a_frame_that_renderdoc_cannot_take_is_told() {
         return;
     }
     let place = Place::new();
-    // It is in the process, and not in the way to the device.
+    // It is in the way to the device, which it can't replay.
     variables.push(("LD_PRELOAD", LIBRARY));
-    let taken = place.run_with(&variables, &[&RUN[..], &["--renderdoc", "1"]].concat()).exits(3);
+    let asked = [&RUN[..], &["--renderdoc", "1"]].concat();
+    let hidden = place.run_with(&variables, &asked).exits(3);
+    hidden.mentions("lacks Vulkan 1.3.0").mentions("RenderDoc is loaded: it hides Vulkan 1.3");
+    // It is in the process, and not in the way.
+    variables.push(("VK_LOADER_LAYERS_DISABLE", "VK_LAYER_RENDERDOC_Capture"));
+    let taken = place.run_with(&variables, &asked).exits(3);
     taken.mentions("RenderDoc took nothing of frame 1").mentions("[E1616]");
-    // Without being asked it does nothing.
+    // Where nobody asks for it, nothing is taken.
     place.run_with(&variables, &RUN).exits(0);
 }

@@ -58,7 +58,14 @@ fn draw_and_write(arguments: &RunArguments) -> Result<Exit, Error> {
     // Only now: until here nothing is lost when the system ends the program, and a named pipe may keep it waiting forever.
     interrupt::watch();
 
-    let device = device::open(choice, arguments.validate, &helper)?;
+    let device = device::open(choice, arguments.validate, &helper).inspect_err(|_| {
+        if renderdoc.is_some() {
+            text::say(
+                "note: RenderDoc is loaded: it hides Vulkan 1.3 of devices without `bufferDeviceAddressCaptureReplay`, \
+                 as software drivers are",
+            );
+        }
+    })?;
     let canary = if arguments.validate { Some(device.canary()?) } else { None };
     let (plan, frame) = subject.planned(arguments, &scene, &device)?;
     if let Some(note) = subject.made_elsewhere(&device.profile().name) {
