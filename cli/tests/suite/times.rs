@@ -145,6 +145,22 @@ fn lv_3_the_timeline_has_lanes_for_host_and_queues_arrows_of_barriers_and_three_
     }
     assert!(!arrows.is_empty());
     assert_eq!(browser.count(&format!("{view}.querySelectorAll('path.hazard').length")), arrows.len());
+    // In a frame of many steps each leads from the last one that used the image.
+    place.run(&["inspect", "deferred", "--format", "html", "-o", "deferred.html"]).exits(0);
+    browser.open_file(&place.path("deferred.html"), "#view=timeline");
+    browser.ask("printing = true, VIEWS.forEach((view) => view.parts?.forEach((part) => part.redraw?.()))");
+    let told = browser.text(&format!(
+        "[...new Set([...{view}.querySelectorAll('path.hazard title')].map((one) => one.textContent.split(':')[0]))].sort().join()"
+    ));
+    let expected = browser.text(
+        "[...new Set(models[0].plan.steps.flatMap((step, to) => step.image_barriers.map(({ image }) => { \
+         const uses = models[0].nodes.filter((node) => node.step < to && node.uses.some((use) => use.resource.image === image)); \
+         return uses.length === 0 ? null : `a barrier before step ${to} waits for step ${Math.max(...uses.map((node) => node.step))}`; \
+         })).filter(Boolean))].sort().join()",
+    );
+    assert!(told == expected && told.contains("before step 9 "), "{told}\n{expected}");
+    browser.open_file(&place.path("page.html"), "#view=timeline");
+    browser.settle();
     // Each width has all steps on one axis, and the recording beside them.
     let ends = format!("[...{view}.querySelectorAll('.lane')].map((one) => Number(one.getAttribute('width'))).join()");
     let mut widths = std::collections::BTreeSet::new();

@@ -318,6 +318,9 @@ mod tests {
             let events = events(&trace(&plan, &device(), &frames(&plan, began)).expect("written"));
             let tracks = tracks(&events);
             nest(&tracks);
+            let steps = tracks[&(2, 1)].iter().filter(|(.., name)| name.starts_with("step "));
+            let steps: Vec<_> = steps.collect();
+            assert!(steps.windows(2).all(|pair| pair[0].1 <= pair[1].0), "{steps:?}");
             let spans = |track| tracks.get(&track).map_or(0, Vec::len);
             let passes: usize = plan.steps.iter().map(|step| step.work.passes().len()).sum();
             assert_eq!((spans((1, 1)), spans((2, 1))), (9, 3 * (plan.steps.len() + passes)));
