@@ -59,8 +59,8 @@ pub use framewright_graph::vulkan::OutsideOwner;
 pub use framewright_graph::vulkan::{CullMode, FrontFace};
 pub use gpu::{
     AdoptedDevice, BufferBounds, DeadImages, Device, DeviceChoice, DeviceFeatures, DeviceOptions, DeviceSummary,
-    LocalReads, MINIMUM_VERSION, Message, MessageKind, Messages, PipelineCounts, SamplerDescriptor, ScopeFormats,
-    Severity, layer, minimum_features, optional_features, rotation_of_surface,
+    LocalReads, MINIMUM_VERSION, Message, MessageKind, Messages, PipelineCounts, RenderDoc, SamplerDescriptor,
+    ScopeFormats, Severity, layer, minimum_features, optional_features, rotation_of_surface,
 };
 /// The allocator of device memory, for programs whose own one serves an [adopted](AdoptedDevice) device.
 pub use gpu_allocator;

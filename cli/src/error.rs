@@ -78,6 +78,15 @@ pub(crate) enum Error {
         text::escape(reason)
     )]
     NoWindow { reason: String },
+    /// RenderDoc isn't in this process.
+    #[error(
+        "RenderDoc isn't loaded: it starts the programs that it looks into\n\
+         help: renderdoccmd capture --wait-for-exit --working-dir . framewright run …; Debian has it in renderdoccmd and librenderdoc"
+    )]
+    NoRenderDoc,
+    /// RenderDoc took nothing.
+    #[error("RenderDoc took nothing of frame {frame}: it isn't in the way to this device, or can't replay it")]
+    NothingTaken { frame: u32 },
     /// A library of the window system is missing.
     #[error(
         "no window can be opened: a library is missing, which Debian has in {}\nhelp: apt-get install {}, or what has it on another system",
@@ -124,6 +133,9 @@ pub(crate) enum Error {
     /// A file is no Plan, or not a right one.
     #[error("{}: {}", text::path(path), text::escape_lines(problem))]
     NoPlan { path: PathBuf, problem: String },
+    /// A file is no report of a run, or not one of this Plan.
+    #[error("{}: {}", text::path(path), text::escape_lines(problem))]
+    NoReport { path: PathBuf, problem: String },
     /// The Plan doesn't know what is to be explained.
     #[error("there is no `{}` in the Plan{}", text::escape(thing), help.as_ref().map_or_else(String::new, |help| format!("\nhelp: {help}")))]
     NothingToExplain { thing: String, help: Option<String> },
@@ -152,6 +164,9 @@ pub(crate) enum Error {
     /// The compiler for pages is something else.
     #[error("the file what-if.wasm is no compiler for pages\nhelp: in a checkout .ci/what-if.sh makes it anew")]
     BadModule,
+    /// Times have no place but a page.
+    #[error("`--report` puts times on a page: add `--format html`")]
+    ReportWithoutPage,
     /// A graph that no picture can hold.
     #[error(
         "a picture of {nodes} passes can't be read: at most {most} are drawn; --format dot or json holds any number"
@@ -398,6 +413,7 @@ impl Error {
             | Error::NoFlicker { .. }
             | Error::NoBaseline { .. }
             | Error::NoPlan { .. }
+            | Error::NoReport { .. }
             | Error::NothingToExplain { .. }
             | Error::TooManyNodes { .. }
             | Error::OutsideResults { .. }
@@ -429,6 +445,7 @@ impl Error {
             | Error::Lab(LabError::Sweep { .. })
             | Error::CaptureWithoutPage
             | Error::WhatIfWithoutPage
+            | Error::ReportWithoutPage
             | Error::ChoiceForPlan { .. }
             | Error::OwnChoice { .. }
             | Error::OtherSweep { .. }
@@ -449,6 +466,8 @@ impl Error {
             | Error::Cache { .. }
             | Error::NoWindow { .. }
             | Error::NoWindowLibrary { .. }
+            | Error::NoRenderDoc
+            | Error::NothingTaken { .. }
             | Error::Port { .. }
             | Error::NoViewer { .. }
             | Error::Print(_)

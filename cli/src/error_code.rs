@@ -23,12 +23,14 @@ impl Error {
             }
             Error::Vulkan(error) => error.code(),
             Error::NoWindow { .. } | Error::NoWindowLibrary { .. } => Code::NO_WINDOW,
+            Error::NoRenderDoc | Error::NothingTaken { .. } => Code::RENDERDOC,
             Error::Lab(error) => of_lab(error),
             Error::Held { .. } => Code::FOLDER_HELD,
             Error::OtherSweep { .. }
             | Error::Results { .. }
             | Error::Joining(_)
             | Error::NoFlicker { .. }
+            | Error::NoReport { .. }
             | Error::NoBaseline { .. } => Code::RESULTS,
             Error::NoPlan { .. } | Error::Plan(_) => Code::NO_PLAN,
             Error::NothingToExplain { .. } | Error::UnknownCode { .. } => Code::NOTHING_TO_EXPLAIN,
@@ -36,6 +38,7 @@ impl Error {
             Error::TooManyNodes { .. } | Error::TooManyPairs { .. } => Code::TOO_MANY,
             Error::CaptureWithoutPage
             | Error::WhatIfWithoutPage
+            | Error::ReportWithoutPage
             | Error::ChoiceForPlan { .. }
             | Error::OwnChoice { .. } => Code::OPTIONS,
             Error::OtherResults { .. }

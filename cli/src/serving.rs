@@ -1,5 +1,6 @@
 //! The live page: a pipeline and a scene that are drawn anew whenever their files or choices change. What is wrong leaves the last good frame.
 
+mod changes;
 mod pictures;
 
 use crate::command_line::serving::ServeArguments;
@@ -8,22 +9,23 @@ use crate::error::Error;
 use crate::files::inputs;
 use crate::planning::{self, totals};
 use crate::system::{Exit, interrupt, text};
+use changes::Changes;
 use framewright::{Choices, Pipeline, PlannedFrame, SceneRenderer};
 use framewright_graph::base::ReadFiles;
 use framewright_graph::frame::{Capture, CaptureName, DrawList};
-use framewright_graph::plan::Detail;
+use framewright_graph::plan::{Detail, SettingUsed};
 use framewright_lab::outputs;
 use framewright_lab::picture::FileFormat;
 use framewright_passes::scene::{Scene, SceneError};
 use framewright_viewer::{
-    About, Choice, Controls, LastFrames, LiveState, Output, Page, PublishedState, ShownMistakes, ShownPlan, Thumbnail,
-    Times,
+    About, Choice, Controls, History, KeptState, LastFrames, LiveState, Output, Page, PublishedState, ShownMistakes,
+    ShownPlan, Thumbnail, Times,
 };
 use framewright_vulkan::{Device, ExecutorOptions, Helper};
 use std::collections::BTreeMap;
 use std::hash::{BuildHasher, RandomState};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 /// The longer side of the pictures that a page begins with, in texels.
 const SMALL: u32 = 128;
@@ -50,6 +52,9 @@ pub(crate) struct Session<'a> {
     good: GoodFrame,
     /// What keeps a newer frame from being drawn.
     wrong: ShownMistakes,
+    /// What changed since the last good frame.
+    changes: Changes,
+    history: Arc<History>,
 }
 
 /// A thing that was read, with the files that it was read from; `None`: they were wrong.
@@ -72,6 +77,10 @@ struct GoodFrame {
     planned: Option<PlannedFrame>,
     /// What was captured of it.
     captured: BTreeMap<CaptureName, CapturedImage>,
+    /// The Plan's JSON form, with what it was drawn with.
+    plan: Arc<str>,
+    settings: Vec<SettingUsed>,
+    times: Option<Times>,
 }
 
 impl<T> FileValue<T> {
@@ -98,6 +107,8 @@ impl<'a> Session<'a> {
             begun: false,
             good: GoodFrame::default(),
             wrong: ShownMistakes::default(),
+            changes: Changes::default(),
+            history: Arc::default(),
         }
     }
 
@@ -122,13 +133,23 @@ impl<'a> Session<'a> {
     pub(crate) fn choose(&mut self, choice: Choice) {
         match choice {
             Choice::Set(values) => self.chosen.extend(values),
-            Choice::Preset(preset) => {
-                self.chosen.clear();
-                self.preset = preset;
-                // Presets are chosen when a pipeline is read.
-                self.pipeline = FileValue::nothing();
+            Choice::Preset(preset) => self.begin_with(preset),
+            Choice::Exactly { preset, set } => {
+                if preset != self.preset {
+                    self.begin_with(preset);
+                }
+                self.chosen = set;
             }
         }
+    }
+
+    /// Takes back all that was chosen, and chooses a preset.
+    fn begin_with(&mut self, preset: Option<String>) {
+        self.chosen.clear();
+        self.preset = preset;
+        // Presets are chosen when a pipeline is read.
+        self.changes.add(self.pipeline.read.changes());
+        self.pipeline = FileValue::nothing();
     }
 
     /// Draws anew, and says on standard error how that went. What is wrong leaves the last good frame.
@@ -139,9 +160,14 @@ impl<'a> Session<'a> {
         let begun = Instant::now();
         self.version += 1;
         let first = !std::mem::replace(&mut self.begun, true);
+        self.changes.add(self.scene.read.changes());
+        self.changes.add(self.pipeline.read.changes());
         match self.drawn() {
             Ok(good) => {
                 let seconds = begun.elapsed().as_secs_f64();
+                if good.page.is_some() {
+                    self.remember(&good);
+                }
                 self.good = GoodFrame { took: format!("{}, drawn in {seconds:.2} s", good.took), ..good };
                 self.wrong = ShownMistakes::default();
                 text::say(&self.good.took);
@@ -154,6 +180,30 @@ impl<'a> Session<'a> {
             }
             Err(error) => Err(error),
         }
+    }
+
+    /// Keeps a frame, so that later ones can be compared with it.
+    fn remember(&mut self, good: &GoodFrame) {
+        let before = self.history.last().map(|_| &*self.good.settings);
+        let of_outputs = good.outputs.iter().filter_map(|output| {
+            let address = output.picture.strip_prefix("picture/")?;
+            Some((address.to_owned(), Arc::clone(good.pictures.get(address)?)))
+        });
+        let state = KeptState {
+            version: good.version,
+            drawn_at: SystemTime::now()
+                .duration_since(UNIX_EPOCH)
+                .map_or(0, |since| u64::try_from(since.as_millis()).unwrap_or(u64::MAX)),
+            changed: self.changes.take(before, &good.settings),
+            chosen: self.chosen.clone(),
+            preset: self.preset.clone(),
+            name: self.arguments.pipeline.file.to_string_lossy().into_owned(),
+            plan: Arc::clone(&good.plan),
+            times: good.times.clone(),
+            took: good.took.clone(),
+            pictures: of_outputs.collect(),
+        };
+        Arc::make_mut(&mut self.history).keep(state);
     }
 
     /// The state of the page.
@@ -181,12 +231,16 @@ impl<'a> Session<'a> {
         };
         let live = serde_json::to_string(&live)?;
         let page = self.good.page.as_deref().unwrap_or("null");
-        let json = format!("{{\"live\":{live},\"page\":{page}}}").into();
+        let history = self.history.listed()?;
+        let json = format!("{{\"live\":{live},\"page\":{page},\"history\":{history}}}").into();
+        let mut pictures = (*self.good.pictures).clone();
+        pictures.extend(self.history.pictures());
         Ok(PublishedState {
             version: self.version,
             server: Arc::clone(&self.server),
             json,
-            pictures: Arc::clone(&self.good.pictures),
+            pictures: Arc::new(pictures),
+            history: Arc::clone(&self.history),
         })
     }
 
@@ -278,6 +332,7 @@ fn drawn(
     }
     let (plan, times) = (&planned.plan, drawn.times);
     let name = arguments.pipeline.file.to_string_lossy();
+    let (kept_plan, settings) = (plan.to_json()?.into(), plan.settings.clone());
     let devices = planning::on_other_devices(pipeline, choices, &options, (&*name, plan))?;
     let objects = |list: DrawList| scene.count(list);
     let detail = Detail { objects: Some(&objects), verbose: true };
@@ -293,6 +348,9 @@ fn drawn(
         took: totals::sentence(&plan.totals),
         planned: Some(planned),
         captured: BTreeMap::new(),
+        plan: kept_plan,
+        settings,
+        times,
     })
 }
 
@@ -313,7 +371,7 @@ fn draw_frames(
 ) -> Result<DrawnFrames, Error> {
     let poison = arguments.planning.poison;
     let options = ExecutorOptions { poison, timestamps: true, ..ExecutorOptions::default() };
-    let mut last = LastFrames::default();
+    let mut last = LastFrames::on(device);
     let mut prepared = SceneRenderer::new(device, planned.parts(), &mut pipeline.assets, scene, &options)?;
     for drawn in 0..arguments.frames {
         if interrupt::asked() {

@@ -246,6 +246,8 @@ impl Pipeline {
         memory: &mut dyn MemoryProvider,
         options: &Options,
     ) -> Result<Plan, Error> {
+        #[cfg(feature = "tracing")]
+        let _span = tracing::info_span!("compile").entered();
         let plan = compile::compile(frame, device, memory, options).map_err(|wrong| self.wrong(wrong))?;
         let violations = verify::verify(&plan);
         if !violations.is_empty() {
@@ -297,6 +299,8 @@ impl Pipeline {
         choices: &Choices,
         options: &Options,
     ) -> Result<&'c Plan, Error> {
+        #[cfg(feature = "tracing")]
+        let _span = tracing::info_span!("compile").entered();
         let frame = Arc::new(self.expand(&choices.inputs(choices.stereo_on(profile)?, Some(profile)))?);
         let plan = compiler.compile(&frame, profile, &mut device.memory(), options);
         let plan = plan.map_err(|diagnostics| self.wrong(diagnostics))?;

@@ -50,6 +50,21 @@ pub(super) fn caches_of_user(variable: impl Fn(&str) -> Option<PathBuf>) -> Opti
     if cfg!(windows) { variable("LOCALAPPDATA") } else { variable("HOME").map(|home| home.join(".cache")) }
 }
 
+/// A library that is in this process already, by its name on Unix and on Windows.
+pub(crate) fn loaded_library(names: [&str; 2]) -> Option<libloading::Library> {
+    #[cfg(unix)]
+    {
+        use libloading::os::unix;
+        let flags = libc::RTLD_NOW | libc::RTLD_NOLOAD;
+        // SAFETY: nothing is loaded, and no code of the library runs.
+        unsafe { unix::Library::open(Some(names[0]), flags) }.ok().map(Into::into)
+    }
+    #[cfg(windows)]
+    {
+        libloading::os::windows::Library::open_already_loaded(names[1]).ok().map(Into::into)
+    }
+}
+
 /// This program's end of the standard input of a process that it starts.
 #[cfg(unix)]
 pub(crate) type ChildInput = std::os::unix::net::UnixStream;

@@ -10,7 +10,7 @@ use super::output_readback::OutputReadback;
 use super::ownership::Ownership;
 use super::retired::Retired;
 use super::submission::{SemaphorePoint, Submission};
-use crate::base::Error;
+use crate::base::{Error, span};
 use crate::gpu::{Device, Gpu, PipelineHold, ScopeFormats};
 use crate::prepare::{Frame, PreparedPlan, Refusals, ResourceUses, StagedTexture, check, stage_textures};
 use crate::record::{DrawSource, FrameReport, GuardedSource};
@@ -116,6 +116,7 @@ impl Executor {
         options: &ExecutorOptions,
         refuse: Refusals,
     ) -> Result<Executor, Error> {
+        span!("prepare");
         let gpu = &device.gpu;
         check(gpu, plan, refuse, options.poison)?;
         let uses = ResourceUses::new(plan);

@@ -126,7 +126,7 @@ fn recorded(
     let begun = Instant::now();
     observers.begin_frame()?;
     record(recorded, observers)?;
-    recorded.end(begun.elapsed());
+    recorded.end(begun);
     Ok(())
 }
 

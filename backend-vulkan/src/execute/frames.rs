@@ -5,7 +5,7 @@ use super::import::Import;
 use super::options::ExecutorOptions;
 use super::promises::Promises;
 use super::submission::{SemaphorePoint, Submission};
-use crate::base::Error;
+use crate::base::{Error, span};
 use crate::commands::{Readback, Timeline};
 use crate::gpu::{Gpu, PendingWork};
 use crate::prepare::{Batch, Frame, PreparedPlan, batches, numbered, numbered_titles};
@@ -123,7 +123,8 @@ impl Frames {
         among: &Submission<'_>,
     ) -> Result<(), Error> {
         let at = self.begin(frame, extras)?;
-        self.slots[at].record(&self.batches, frame, prepared, source, extras)?;
+        self.record(at, frame, prepared, source, extras)?;
+        span!("submit", frame = frame.number);
         let mut outer = 0;
         // The program's waits, the batches, and the program's signals.
         let parts = self.batches.len() + 2;
@@ -150,6 +151,18 @@ impl Frames {
         }
         self.end(at, frame.number, FrameEnd::Own { outer });
         Ok(())
+    }
+
+    fn record(
+        &mut self,
+        slot: usize,
+        frame: &Frame<'_>,
+        prepared: &PreparedPlan,
+        source: &mut dyn DrawSource,
+        extras: &FrameExtras<'_>,
+    ) -> Result<(), Error> {
+        span!("record", frame = frame.number);
+        self.slots[slot].record(&self.batches, frame, prepared, source, extras)
     }
 
     /// The error of a part of a frame, with its step if each step is a part.
@@ -190,6 +203,7 @@ impl Frames {
         let at = self.begin(frame, extras)?;
         match self.batches.as_slice() {
             [batch] if batch.queue == Queue::Graphics => {
+                span!("record", frame = frame.number);
                 self.slots[at].record_into(commands, batch, frame, prepared, source, extras)?;
             }
             [] => {}
@@ -372,6 +386,7 @@ impl Frames {
         if self.gpu.is_abandoned() {
             return Err(self.at_breadcrumbs(Error::DeviceLost { doing: DRAWING }));
         }
+        span!("wait", frame = frame);
         match end {
             FrameEnd::Own { outer } => {
                 self.expect(self.batches.len(), frame, outer);

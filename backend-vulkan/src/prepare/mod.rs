@@ -9,6 +9,7 @@ mod descriptions;
 mod draw_target;
 mod frame;
 mod initial_ownership;
+mod labels;
 mod param_block;
 mod pass;
 mod pass_set;

@@ -4,6 +4,7 @@ use super::command_list::{Command, CommandList, Run, ScopeCommand};
 use super::descriptions::part;
 use super::draw_target::DrawTarget;
 use super::frame::Frame;
+use super::labels::labelled;
 use super::pass::{PreparedDraw, prepare_draw};
 use super::variant::view_mask;
 use crate::base::{Error, convert};
@@ -64,7 +65,7 @@ pub(super) fn push_scope(
     for (number, (pass, made)) in (0..).zip(scope.passes.iter().zip(made)) {
         list.push_labelled(
             frame.gpu,
-            || c_string(&pass.name),
+            || c_string(&labelled(frame.gpu, &pass.name, Some(&pass.cause))),
             |list| {
                 if pass.local_barrier {
                     list.push(Command::LocalBarrier);

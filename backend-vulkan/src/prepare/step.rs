@@ -2,6 +2,7 @@
 
 use super::command_list::{Command, CommandList};
 use super::frame::{Frame, FrameClock};
+use super::labels::labelled;
 use super::pass::{PassPipeline, PreparedDispatch, PreparedDraw, prepare_dispatch};
 use super::pass_set::PassSets;
 use super::physical::PhysicalResources;
@@ -14,7 +15,7 @@ use crate::commands::{TransferCommand, TransferSide, memory_barrier};
 use crate::gpu::{Gpu, c_string};
 use crate::shaders::ShaderLibrary;
 use ash::vk;
-use framewright_graph::plan::{Plan, Resource, Step, Transfer, Work};
+use framewright_graph::plan::{Cause, Plan, Resource, Step, Transfer, Work};
 use framewright_graph::vulkan::Filter;
 use std::sync::Arc;
 
@@ -55,7 +56,10 @@ impl PreparedStep {
         (index, step): (usize, &Step),
         debugging: Debugging,
     ) -> Result<(), Error> {
-        let label = || c_string(&numbered(frame.plan, index, step));
+        let label = || {
+            let cause = step.work.scope().is_none().then(|| cause(&step.work)).flatten();
+            c_string(&labelled(frame.gpu, &numbered(frame.plan, index, step), cause))
+        };
         list.push_labelled(frame.gpu, label, |list| {
             if debugging.full_barriers {
                 list.push_barriers(frame.gpu, [everything()], []);
@@ -181,6 +185,11 @@ fn everything() -> vk::MemoryBarrier2<'static> {
 /// A step with its number and its title, as labels of command buffers and errors name it.
 pub(crate) fn numbered(plan: &Plan, number: usize, step: &Step) -> String {
     format!("step {number}: {}", title(plan, step))
+}
+
+/// Why the work of a step is there, if it is one pass or one transfer.
+fn cause(work: &Work) -> Option<&Cause> {
+    work.cause().or_else(|| work.passes().first().map(|pass| &pass.cause))
 }
 
 /// Those of all steps.

@@ -1,7 +1,7 @@
 //! What was recorded for a frame.
 
 use super::frame_resources::HeldResources;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// A recorded frame.
 #[derive(Default)]
@@ -13,7 +13,9 @@ pub(crate) struct RecordedFrame {
     pub(super) kept: HeldResources,
     /// By pass of the scope that is recorded: whether its draws come in secondary command buffers.
     pub(super) secondary: Vec<bool>,
-    /// How long that took.
+    /// When that began.
+    pub(crate) began: Option<Instant>,
+    /// How long it took.
     pub(crate) took: Duration,
 }
 
@@ -25,10 +27,10 @@ impl RecordedFrame {
         self.kept.begin();
     }
 
-    /// Ends the frame, which took so long.
-    pub(crate) fn end(&mut self, took: Duration) {
+    /// Ends the frame, which was begun then.
+    pub(crate) fn end(&mut self, began: Instant) {
         self.kept.end();
-        self.took = took;
+        (self.began, self.took) = (Some(began), began.elapsed());
     }
 }
 

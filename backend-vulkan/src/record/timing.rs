@@ -8,6 +8,7 @@ use crate::prepare::{Batch, view_mask};
 use ash::vk;
 use framewright_graph::plan::{Plan, Queue, Work};
 use std::sync::Arc;
+use std::time::Instant;
 
 /// Times of a frame and its steps.
 #[derive(Debug, Clone, PartialEq)]
@@ -17,6 +18,8 @@ pub struct FrameReport {
     pub milliseconds: f64,
     /// Time that this thread took to record its commands, what the draw source did for it included, in milliseconds.
     pub recording_milliseconds: f64,
+    /// When this thread began to record them.
+    pub recording_began: Option<Instant>,
     /// How often fragment shaders ran, if [`crate::ExecutorOptions::fragment_counts`] is set. `None` without it, on a device that
     /// doesn't count them (`pipelineStatisticsQuery`), and for a Plan that draws several views at once.
     pub fragment_invocations: Option<u64>,
@@ -30,6 +33,9 @@ pub struct StepReport {
     /// From the end of the step before to the end of this one, its barriers included, but no wait for other queues. 0 on
     /// queues without timestamps, and where the step didn't run.
     pub milliseconds: f64,
+    /// When that began, in nanoseconds of the device's clock, whose beginning means nothing: of two steps it tells how far they are apart. Vulkan
+    /// promises so of steps of one queue. `None` where `milliseconds` isn't measured.
+    pub began: Option<u64>,
     /// Whether its work was done; its barriers were recorded all the same.
     pub ran: bool,
     /// The passes of a rendering scope, a dispatch or a custom pass; empty for other steps.
@@ -190,7 +196,8 @@ pub(crate) fn report(
                 began = ended;
             }
             let ended = next();
-            steps.push(StepReport { milliseconds: between(step_began, ended), ran, passes: reports });
+            let began = step_began.filter(|_| ran && ended.is_some()).map(|ticks| clock.nanoseconds(ticks));
+            steps.push(StepReport { milliseconds: between(step_began, ended), began, ran, passes: reports });
             step_began = ended;
         }
         if let Some((_, _, end)) = queues.iter_mut().find(|(queue, ..)| *queue == batch.queue) {
@@ -201,7 +208,8 @@ pub(crate) fn report(
     let recording_milliseconds = recorded.took.as_secs_f64() * 1e3;
     let fragment_invocations = fragments.map(FragmentCounts::read).transpose()?;
     let milliseconds = spent.fold(0.0, f64::max);
-    Ok(FrameReport { milliseconds, recording_milliseconds, fragment_invocations, steps })
+    let recording_began = recorded.began;
+    Ok(FrameReport { milliseconds, recording_milliseconds, recording_began, fragment_invocations, steps })
 }
 
 /// The time that a timestamp's queries hold. Vulkan writes it to one of them and may write 0 to the others.
@@ -222,6 +230,17 @@ impl Clock {
         let bits = gpu.queues.families.family(queue).timestamp_bits;
         let mask = u64::MAX.unbounded_shr(64_u32.saturating_sub(bits));
         Clock { mask, period: f64::from(gpu.limits.timestamp_period) }
+    }
+
+    /// A timestamp in nanoseconds, exactly: a clock that has run for months has more digits than a floating-point number.
+    fn nanoseconds(&self, ticks: u64) -> u64 {
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "periods are positive, and below a second"
+        )]
+        let picoseconds = (self.period * 1e3).round() as u128;
+        u64::try_from(u128::from(ticks & self.mask) * picoseconds / 1000).unwrap_or(u64::MAX)
     }
 
     /// Milliseconds from one timestamp to another; 0 if either is missing.
@@ -277,6 +296,15 @@ mod tests {
                 assert!(written(queries, stamp - 1, views).end <= queries.first(stamp), "{views} views");
             }
         }
+    }
+
+    #[test]
+    fn lv_10_a_timestamp_keeps_its_digits_whatever_the_clock_began_with() {
+        let clock = Clock { mask: u64::MAX >> 1, period: 1.0 };
+        assert_eq!(clock.nanoseconds(u64::MAX), u64::MAX >> 1);
+        let slow = Clock { mask: u64::MAX, period: 52.083 };
+        assert_eq!((slow.nanoseconds(1000), slow.nanoseconds(1001)), (52_083, 52_135));
+        assert_eq!(slow.nanoseconds(u64::MAX), u64::MAX);
     }
 
     #[test]

@@ -167,6 +167,9 @@ pub(crate) struct InspectArguments {
     /// Say the stages and accesses of each barrier too, and the bytes that each step moves.
     #[arg(long)]
     pub(crate) verbose: bool,
+    /// Report that `run` wrote of the same Plan: its times are shown on the page.
+    #[arg(long, value_name = "FILE.json", conflicts_with = "capture")]
+    pub(crate) report: Option<PathBuf>,
     /// File to write instead of printing.
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
@@ -227,6 +230,12 @@ pub(crate) struct RunArguments {
     /// File for the report: device, memory, barriers, passes and every validation message, as JSON.
     #[arg(long, value_name = "FILE.json")]
     pub(crate) report: Option<PathBuf>,
+    /// File for a trace of the frames, which Perfetto and Chrome's trace viewer open: steps and passes by queue, recording, memory.
+    #[arg(long, value_name = "TRACE.json")]
+    pub(crate) trace: Option<PathBuf>,
+    /// Have RenderDoc take the frame of this number, the first being 1. RenderDoc must have started this command.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) renderdoc: Option<u32>,
     /// Have each step wait for all before it, whatever its barriers say. If that changes the picture, a barrier is missing.
     #[arg(long)]
     pub(crate) full_barriers: bool,
@@ -237,7 +246,7 @@ pub(crate) struct RunArguments {
     #[arg(long)]
     pub(crate) breadcrumbs: bool,
     /// Draw every image after every pass that wrote it twice, once in this mode too, and name the first that differs.
-    #[arg(long, value_enum, conflicts_with_all = ["output", "dump", "dump_all", "save_plan", "validate"])]
+    #[arg(long, value_enum, conflicts_with_all = ["output", "dump", "dump_all", "save_plan", "validate", "trace", "renderdoc"])]
     pub(crate) bisect: Option<DebugMode>,
     #[command(flatten)]
     pub(crate) planning: PlanningArguments,
@@ -278,7 +287,8 @@ impl RunArguments {
     pub(crate) fn written(&self) -> impl Iterator<Item = &Path> + Clone {
         let outputs = self.output.iter().map(|output| &*output.file);
         let dumped = self.dump.iter().map(|dump| &*dump.file);
-        outputs.chain(dumped).chain(self.report.as_deref()).chain(self.save_plan.as_deref())
+        let texts = [&self.report, &self.trace, &self.save_plan];
+        outputs.chain(dumped).chain(texts.into_iter().filter_map(|file| file.as_deref()))
     }
 }
 
@@ -380,6 +390,9 @@ fn agree(line: CommandLine) -> Result<CommandLine, clap::Error> {
     if let Command::Run(run) = &line.command {
         if let Some(image) = twice(run.dump.iter().map(|dump| &dump.image)) {
             return conflict(format!("the image `{}` is dumped twice", text::escape(image)));
+        }
+        if let Some(frame) = run.renderdoc.filter(|frame| *frame > run.frames) {
+            return conflict(format!("`--renderdoc` asks for frame {frame}, and `--frames` draws {}", run.frames));
         }
         if let Some(file) = twice(run.written()) {
             return conflict(format!("`{}` would be written twice", text::path(file)));

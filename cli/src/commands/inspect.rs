@@ -2,9 +2,11 @@
 
 use crate::command_line::args::{CapturedPictures, InspectArguments, PlanFormat};
 use crate::drawing::captures::{self, Drawing};
+use crate::drawing::timed;
 use crate::error::Error;
 use crate::files::inputs::{self, FileRole};
 use crate::files::outputs;
+use crate::files::report;
 use crate::planning::what_if::{self, PlannedSubject};
 use crate::planning::{self, device, helper, plan_file};
 use crate::system::{Exit, interrupt, text};
@@ -14,7 +16,7 @@ use framewright_graph::device::MemoryEstimate;
 use framewright_graph::frame::DrawList;
 use framewright_graph::plan::{Detail, Plan};
 use framewright_lab::picture::FileFormat;
-use framewright_viewer::{MOST_NODES, Page, ShownPlan, Thumbnail};
+use framewright_viewer::{MOST_NODES, Page, ShownPlan, Thumbnail, Times};
 use framewright_vulkan::{Device, Helper};
 use std::path::Path;
 
@@ -34,6 +36,7 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
     let subject = &arguments.subject;
     subject.scene.iter().for_each(|file| framewright::expect_scene(file, &read));
     subject.device.iter().for_each(|file| read.expect(FileRole::PROFILE.recorded, Path::new(file)));
+    arguments.report.iter().for_each(|file| read.expect(FileRole::REPORT.recorded, file));
     let spare = || outputs::prepare(arguments.output.as_deref().into_iter(), &read);
     spare()?;
     let helper = helper::of(&arguments.pipeline)?;
@@ -46,6 +49,7 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
     if arguments.what_if && arguments.format != PlanFormat::Html {
         return Err(Error::WhatIfWithoutPage);
     }
+    expect_page(arguments)?;
     let module = arguments.what_if.then(what_if::module).transpose()?;
     let drawn_on = if arguments.capture.is_some() { Some(open(&helper)?) } else { None };
     let profile = match &drawn_on {
@@ -65,12 +69,13 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
     let name = arguments.pipeline.file.to_string_lossy();
     let shown = shown(arguments.format, plan, detail, || {
         let devices = planning::on_other_devices(&mut pipeline, &choices, &options, (&*name, plan))?;
-        let captures = match (&drawn_on, &scene, &arguments.output, arguments.capture) {
+        let (captures, times) = match (&drawn_on, &scene, &arguments.output, arguments.capture) {
             (Some(device), Some(scene), Some(page), Some(wanted)) => {
                 let (made, pipeline) = ((plan, &planned.frame), &mut pipeline);
-                captured(Drawing::new(device, pipeline, made, scene, options), wanted, page, &read)?
+                let times = timed::times(device, made, &mut pipeline.assets, scene)?;
+                (captured(Drawing::new(device, pipeline, made, scene, options), wanted, page, &read)?, times)
             }
-            _ => Vec::new(),
+            _ => (Vec::new(), reported(arguments, plan, &read)?),
         };
         let what_if = module.map(|module| {
             let draws = planning::draws(&arguments.pipeline, &read)?;
@@ -81,8 +86,8 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
         });
         let what_if = what_if.transpose()?;
         let detail = Detail { verbose: true, ..detail };
-        let sources = (!arguments.no_sources).then_some(&*pipeline.sources);
-        let shown = ShownPlan { name: name.into_owned(), plan, detail, sources, times: None };
+        let (sources, times) = ((!arguments.no_sources).then_some(&*pipeline.sources), times.as_ref());
+        let shown = ShownPlan { name: name.into_owned(), plan, detail, sources, times };
         let page = Page { plans: vec![shown], differences: None, devices: &devices, captures: &captures };
         let Some(what_if) = &what_if else { return Ok(framewright_viewer::page(&page)?) };
         Ok(framewright_viewer::page_with_what_if(&page, what_if)?)
@@ -95,24 +100,39 @@ fn inspect_plan(arguments: &InspectArguments, read: &ReadFiles) -> Result<Exit, 
     let InspectArguments { pipeline, subject, capture, what_if, .. } = arguments;
     let own = capture.map(|_| "--capture").or(what_if.then_some("--what-if"));
     plan_file::nothing_chosen(pipeline, subject, own)?;
+    expect_page(arguments)?;
     read.expect(FileRole::PLAN.recorded, &pipeline.file);
+    arguments.report.iter().for_each(|file| read.expect(FileRole::REPORT.recorded, file));
     let spare = || outputs::prepare(arguments.output.as_deref().into_iter(), read);
     spare()?;
     let plan = plan_file::read(&pipeline.file, read)?;
     spare()?;
     let detail = Detail { verbose: arguments.verbose, ..Detail::default() };
     let shown = shown(arguments.format, &plan, detail, || {
-        let detail = Detail { verbose: true, ..detail };
+        let times = reported(arguments, &plan, read)?;
         let shown = ShownPlan {
             name: pipeline.file.to_string_lossy().into_owned(),
             plan: &plan,
-            detail,
+            detail: Detail { verbose: true, ..detail },
             sources: None,
-            times: None,
+            times: times.as_ref(),
         };
         Ok(framewright_viewer::page(&Page { plans: vec![shown], differences: None, devices: &[], captures: &[] })?)
     })?;
     put(arguments, &shown, read)
+}
+
+/// Times are for pages alone.
+fn expect_page(arguments: &InspectArguments) -> Result<(), Error> {
+    match arguments.report.is_some() && arguments.format != PlanFormat::Html {
+        true => Err(Error::ReportWithoutPage),
+        false => Ok(()),
+    }
+}
+
+/// The times in the report that the command line names.
+fn reported(arguments: &InspectArguments, plan: &Plan, read: &ReadFiles) -> Result<Option<Times>, Error> {
+    arguments.report.as_deref().map(|file| report::times(file, plan, read)).transpose()
 }
 
 /// A Plan in a form; `page` makes that of a page.

@@ -2,3 +2,4 @@
 
 pub(crate) mod captures;
 pub(crate) mod pictures;
+pub(crate) mod timed;

@@ -34,6 +34,8 @@ impl FileRole {
     pub(crate) const INTERFACE: FileRole = FileRole { name: "interface", recorded: "the interface itself" };
     /// A budget.
     pub(crate) const BUDGET: FileRole = FileRole { name: "budget", recorded: "the budget itself" };
+    /// What `run` found out.
+    pub(crate) const REPORT: FileRole = FileRole { name: "report", recorded: "a report that is read" };
     /// A picture.
     const PICTURE: FileRole = FileRole { name: "picture", recorded: "a picture that is compared" };
     /// The results of a sweep.

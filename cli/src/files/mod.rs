@@ -2,4 +2,5 @@
 
 pub(crate) mod inputs;
 pub(crate) mod outputs;
+pub(crate) mod report;
 mod stream;

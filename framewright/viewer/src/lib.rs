@@ -6,16 +6,19 @@
 //! ```
 
 mod graph;
+mod history;
 pub mod html;
 mod open_questions;
 mod page;
 mod program;
 mod server;
 mod times;
+mod trace;
 mod what_if;
 mod xml;
 
 pub use graph::{dot, mermaid, svg};
+pub use history::{History, KeptState};
 pub use page::{
     DeviceDifferences, MOST_NODES, Page, PictureSize, PictureTexels, ShownPlan, Thumbnail, live_page, page, page_data,
 };
@@ -24,6 +27,7 @@ pub use server::{
     About, AskedPicture, AskedPictures, Choice, Controls, LiveProgram, LiveRenderer, LiveState, Output, PictureAnswer,
     PublishedState, Question, Server, ShownFinding, ShownMistakes, SourceText,
 };
-pub use times::{LastFrames, Spread, StepTimes, Times};
+pub use times::{LastFrames, Spread, StepTimes, TimedDevice, Times};
+pub use trace::{TracedFrame, trace};
 pub use what_if::{BadModule, WhatIf, page_with_what_if};
 pub use xml::escaped as escape_xml;

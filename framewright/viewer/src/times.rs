@@ -1,21 +1,33 @@
 //! The times of the last frames of a Plan.
 
 use framewright_lab::quantiles::quantile;
-use framewright_vulkan::{FrameReport, StepReport};
-use serde::Serialize;
+use framewright_vulkan::{Device, FrameReport, StepReport};
+use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
 /// The reports of the last frames of one Plan: as soon as there are [`LastFrames::MOST`], the oldest makes room.
 #[derive(Debug, Default)]
 pub struct LastFrames {
+    device: Option<TimedDevice>,
     reports: VecDeque<FrameReport>,
 }
 
+/// The device that times were measured on.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct TimedDevice {
+    /// Its own name.
+    pub name: String,
+    /// Whether it is the processor, which a software driver draws on: its times tell parts of a frame apart, and nothing of a GPU.
+    pub is_processor: bool,
+}
+
 /// Times of a Plan, over its last frames, in milliseconds.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Times {
     /// How many frames they are of.
     pub frames: usize,
+    /// The device; `None`: nobody said.
+    pub device: Option<TimedDevice>,
     /// Of the device, for a frame.
     pub frame: Spread,
     /// Of the thread that records a frame.
@@ -25,7 +37,7 @@ pub struct Times {
 }
 
 /// Times of a step.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StepTimes {
     /// Those of the whole step, its barriers included.
     #[serde(flatten)]
@@ -35,7 +47,7 @@ pub struct StepTimes {
 }
 
 /// Milliseconds over several frames.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Spread {
     /// The one in the middle.
     pub median: f64,
@@ -48,6 +60,12 @@ pub struct Spread {
 impl LastFrames {
     /// The number of frames that are kept.
     pub const MOST: usize = 300;
+
+    /// Room for those of a device.
+    #[must_use]
+    pub fn on(device: &Device) -> LastFrames {
+        LastFrames { device: Some(TimedDevice::of(device)), reports: VecDeque::new() }
+    }
 
     /// Keeps the report of a frame.
     pub fn add(&mut self, report: FrameReport) {
@@ -65,20 +83,46 @@ impl LastFrames {
     /// Their times; `None` before the first frame, and of a device that measures none.
     #[must_use]
     pub fn times(&self) -> Option<Times> {
-        let last = self.reports.back().filter(|report| report.milliseconds > 0.0)?;
-        let over = |value: &dyn Fn(&FrameReport) -> Option<f64>| Spread::of(self.reports.iter().filter_map(value));
-        let step = |(at, step): (usize, &StepReport)| StepTimes {
-            step: over(&|report| Some(report.steps.get(at)?.milliseconds)),
-            passes: (0..step.passes.len())
-                .map(|pass| over(&|report| Some(report.steps.get(at)?.passes.get(pass)?.milliseconds)))
-                .collect(),
-        };
-        Some(Times {
-            frames: self.reports.len(),
-            frame: over(&|report| Some(report.milliseconds)),
-            recording: over(&|report| Some(report.recording_milliseconds)),
-            steps: last.steps.iter().enumerate().map(step).collect(),
-        })
+        times(self.device.clone(), self.reports.iter())
+    }
+}
+
+impl Times {
+    /// Those of frames that `device` drew; `None` if it measures none.
+    #[must_use]
+    pub fn of(device: &Device, frames: &[FrameReport]) -> Option<Times> {
+        times(Some(TimedDevice::of(device)), frames.iter())
+    }
+}
+
+/// The times of `frames`; `None` of none, and of a device that measures none.
+fn times<'r>(
+    device: Option<TimedDevice>,
+    frames: impl ExactSizeIterator<Item = &'r FrameReport> + DoubleEndedIterator + Clone,
+) -> Option<Times> {
+    let last = frames.clone().next_back().filter(|report| report.milliseconds > 0.0)?;
+    let over = |value: &dyn Fn(&FrameReport) -> Option<f64>| Spread::of(frames.clone().filter_map(value));
+    let step = |(at, step): (usize, &StepReport)| StepTimes {
+        step: over(&|report| Some(report.steps.get(at)?.milliseconds)),
+        passes: (0..step.passes.len())
+            .map(|pass| over(&|report| Some(report.steps.get(at)?.passes.get(pass)?.milliseconds)))
+            .collect(),
+    };
+    Some(Times {
+        frames: frames.len(),
+        device,
+        frame: over(&|report| Some(report.milliseconds)),
+        recording: over(&|report| Some(report.recording_milliseconds)),
+        steps: last.steps.iter().enumerate().map(step).collect(),
+    })
+}
+
+impl TimedDevice {
+    /// A device as times name it.
+    #[must_use]
+    pub fn of(device: &Device) -> TimedDevice {
+        let summary = device.summary();
+        TimedDevice { name: summary.name.clone(), is_processor: summary.kind == "cpu" }
     }
 }
 
@@ -97,8 +141,15 @@ mod tests {
     use super::*;
 
     fn frame(milliseconds: f64) -> FrameReport {
-        let step = StepReport { milliseconds: milliseconds / 2.0, ran: true, passes: Vec::new() };
-        FrameReport { milliseconds, recording_milliseconds: 0.25, fragment_invocations: None, steps: vec![step] }
+        let step = StepReport { milliseconds: milliseconds / 2.0, began: None, ran: true, passes: Vec::new() };
+        let (recording_began, fragment_invocations) = (None, None);
+        FrameReport {
+            milliseconds,
+            recording_milliseconds: 0.25,
+            recording_began,
+            fragment_invocations,
+            steps: vec![step],
+        }
     }
 
     #[test]
@@ -117,6 +168,18 @@ mod tests {
         frames.clear();
         frames.add(frame(3.0));
         assert_eq!(frames.times().expect("one").frame, Spread { median: 3.0, low: 3.0, high: 3.0 });
+    }
+
+    #[test]
+    fn lv_2_times_are_the_same_after_json() {
+        let mut frames = LastFrames {
+            device: Some(TimedDevice { name: "d".to_owned(), is_processor: true }),
+            ..LastFrames::default()
+        };
+        frames.add(frame(3.5));
+        let times = frames.times().expect("one");
+        let json = serde_json::to_string(&times).expect("JSON");
+        assert_eq!(serde_json::from_str::<Times>(&json).expect("times"), times, "{json}");
     }
 
     #[test]

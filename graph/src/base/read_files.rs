@@ -93,6 +93,16 @@ impl ReadFiles {
         self.lock().paths.iter().any(|(path, stamp)| Stamp::at(path) != *stamp)
     }
 
+    /// Those files, and those that are gone or there by now, by their paths.
+    #[must_use]
+    pub fn changes(&self) -> Vec<PathBuf> {
+        let records = self.lock();
+        let changed = records.paths.iter().filter(|(path, stamp)| Stamp::at(path) != **stamp);
+        let mut changed: Vec<PathBuf> = changed.map(|(path, _)| path.clone()).collect();
+        changed.sort_unstable();
+        changed
+    }
+
     /// The kind that the file at `path` was read as; `None` if it was not read, or there is none.
     #[must_use]
     pub fn read_as(&self, path: &Path) -> Option<&'static str> {
@@ -244,6 +254,7 @@ mod tests {
         fs::remove_dir(at("missing")).expect("removed");
         fs::write(at("missing"), "").expect("written");
         assert!(files.changed(), "made");
+        assert_eq!(files.changes(), [at("missing")]);
     }
 
     /// What isn't there, a folder, a pipe and a device.

@@ -124,7 +124,8 @@ impl Work {
     }
 
     /// Why a transfer is there.
-    pub(crate) fn cause(&self) -> Option<&Cause> {
+    #[must_use]
+    pub fn cause(&self) -> Option<&Cause> {
         match self {
             Work::Resolve(transfer) | Work::Copy(transfer) | Work::Blit(transfer) => Some(&transfer.cause),
             Work::Fill(fill) => Some(&fill.cause),

@@ -25,4 +25,5 @@ mod rooms;
 mod shipped_plans;
 mod shipped_shaders;
 mod small_optima;
+mod spans;
 mod spare_barriers;

@@ -22,10 +22,12 @@ use framewright_lab::picture::FileFormat;
 use framewright_lab::quantiles::median;
 use framewright_lab::timings;
 use framewright_passes::scene::Scene;
-use framewright_vulkan::{Device, ExecutorOptions, FrameReport};
+use framewright_viewer::{TimedDevice, Times, TracedFrame};
+use framewright_vulkan::{Device, ExecutorOptions, FrameReport, RenderDoc};
 use report::{Report, Validation};
 use serde::Serialize;
 use std::path::Path;
+use std::time::Instant;
 use subject::Subject;
 
 pub(crate) use report::DeviceUsed;
@@ -47,6 +49,7 @@ fn draw_and_write(arguments: &RunArguments) -> Result<Exit, Error> {
     framewright::expect_scene(&arguments.drawn.scene, &read);
     let spare = || outputs::prepare(arguments.written(), &read);
     spare()?;
+    let renderdoc = renderdoc(arguments)?;
     let choice = device::to_draw_on(arguments.device.name.as_deref())?;
     let helper = helper::of(&arguments.pipeline)?;
     let mut subject = Subject::read(arguments, &helper, &read)?;
@@ -55,7 +58,14 @@ fn draw_and_write(arguments: &RunArguments) -> Result<Exit, Error> {
     // Only now: until here nothing is lost when the system ends the program, and a named pipe may keep it waiting forever.
     interrupt::watch();
 
-    let device = device::open(choice, arguments.validate, &helper)?;
+    let device = device::open(choice, arguments.validate, &helper).inspect_err(|_| {
+        if renderdoc.is_some() {
+            text::say(
+                "note: RenderDoc is loaded: it hides Vulkan 1.3 of devices without `bufferDeviceAddressCaptureReplay`, \
+                 as software drivers are",
+            );
+        }
+    })?;
     let canary = if arguments.validate { Some(device.canary()?) } else { None };
     let (plan, frame) = subject.planned(arguments, &scene, &device)?;
     if let Some(note) = subject.made_elsewhere(&device.profile().name) {
@@ -81,7 +91,9 @@ fn draw_and_write(arguments: &RunArguments) -> Result<Exit, Error> {
     for name in not_handed_in(&plan) {
         text::say(&format!("note: nobody hands in `{}` here: all of it is 0", text::escape(name)));
     }
-    let (frames, pictures) = draw(arguments, (&plan, frame.as_ref()), &requests, subject.assets(), &scene, &device)?;
+    let drawn = (&plan, frame.as_ref());
+    let (traced, pictures) = draw(arguments, drawn, &requests, subject.assets(), &scene, (&device, renderdoc))?;
+    let frames: Vec<FrameReport> = traced.iter().map(|frame| frame.report.clone()).collect();
     let over = |time: fn(&FrameReport) -> f64| median(frames.iter().map(time).collect()).unwrap_or_default();
     let mut report = Report {
         format_version: 2,
@@ -97,6 +109,7 @@ fn draw_and_write(arguments: &RunArguments) -> Result<Exit, Error> {
         gpu_milliseconds: over(|frame| frame.milliseconds),
         recording_milliseconds: over(|frame| frame.recording_milliseconds),
         passes: timings::rows(&plan, &frames),
+        times: Times::of(&device, &frames),
         notes: plan.notes.clone(),
         scene_notes: scene.mistakes.iter().chain(&scene.notes).cloned().collect(),
         validation: None,
@@ -110,12 +123,19 @@ fn draw_and_write(arguments: &RunArguments) -> Result<Exit, Error> {
     }
     // The layer may have something to say about the device's end too.
     let messages = device.messages();
+    let timed_on = TimedDevice::of(&device);
     drop(device);
     report.validation = canary.map(|canary| Validation::new(canary, &messages.distinct()));
 
     let mut texts = Vec::new();
     if let Some(file) = arguments.report.as_deref() {
         texts.push((file, text::json(&report)?));
+    }
+    if let Some(file) = arguments.trace.as_deref() {
+        if frames.iter().flat_map(|frame| &frame.steps).all(|step| step.began.is_none()) {
+            text::say("note: the device measures no times: the trace has what the host did");
+        }
+        texts.push((file, text::json_text(&framewright_viewer::trace(&plan, &timed_on, &traced)?)));
     }
     if let Some(file) = arguments.save_plan.as_deref() {
         texts.push((file, text::json_text(&plan.to_json()?)));
@@ -197,6 +217,12 @@ fn not_handed_in(plan: &Plan) -> impl Iterator<Item = &str> {
     images.chain(plan.buffers.iter().filter(comes_in).map(|buffer| &*buffer.name))
 }
 
+/// RenderDoc and the number of the frame that it takes, if one is asked for.
+fn renderdoc(arguments: &RunArguments) -> Result<Option<(RenderDoc, u32)>, Error> {
+    let Some(frame) = arguments.renderdoc else { return Ok(None) };
+    Ok(Some((RenderDoc::loaded().ok_or(Error::NoRenderDoc)?, frame)))
+}
+
 /// Draws all frames, and encodes the pictures to write.
 fn draw(
     arguments: &RunArguments,
@@ -204,8 +230,8 @@ fn draw(
     requests: &[PictureRequest<'_>],
     assets: &mut Assets,
     scene: &Scene,
-    device: &Device,
-) -> Result<(Vec<FrameReport>, Vec<EncodedPicture>), Error> {
+    (device, renderdoc): (&Device, Option<(RenderDoc, u32)>),
+) -> Result<(Vec<TracedFrame>, Vec<EncodedPicture>), Error> {
     let options = ExecutorOptions { timestamps: true, ..arguments.executor_options() };
     let mut prepared = SceneRenderer::new(device, (plan, frame), assets, scene, &options)?;
     let progress = progress::frames(arguments.frames);
@@ -214,7 +240,15 @@ fn draw(
         if interrupt::asked() {
             return Err(Error::Interrupted { frames: drawn, wanted: arguments.frames });
         }
-        frames.push(prepared.draw().map_err(Error::from).map_err(interrupted(drawn, arguments.frames))?);
+        let taking = renderdoc.filter(|(_, frame)| *frame == drawn + 1).map(|(renderdoc, _)| renderdoc);
+        taking.iter().for_each(RenderDoc::begin);
+        let began = Instant::now();
+        let report = prepared.draw().map_err(Error::from).map_err(interrupted(drawn, arguments.frames))?;
+        frames.push(TracedFrame { began, ended: Instant::now(), report });
+        if let Some(renderdoc) = taking {
+            let file = renderdoc.end().ok_or(Error::NothingTaken { frame: drawn + 1 })?;
+            text::say(&format!("RenderDoc took frame {}: {}", drawn + 1, text::path(&file)));
+        }
         progress.inc(1);
     }
     progress.finish_and_clear();

@@ -6,6 +6,7 @@ use comfy_table::{CellAlignment, Table};
 use framewright_graph::dataflow::NodeKind;
 use framewright_graph::plan::{Note, SettingUsed, Totals};
 use framewright_lab::timings::Row;
+use framewright_viewer::Times;
 use framewright_vulkan::{Canary, DeviceSummary, Message, MessageKind, Severity};
 use serde::Serialize;
 
@@ -36,6 +37,8 @@ pub(crate) struct Report {
     pub(crate) recording_milliseconds: f64,
     /// Passes in the order of execution, inserted resolves and copies between them.
     pub(crate) passes: Vec<Row>,
+    /// The times of all frames, step by step; `null` if the device measures none.
+    pub(crate) times: Option<Times>,
     /// The compiler's remarks.
     pub(crate) notes: Vec<Note>,
     /// Content of the scene's file that isn't drawn.

@@ -47,7 +47,8 @@ mod tests {
     use crate::results::Spread;
 
     fn frame(milliseconds: f64, recording_milliseconds: f64, fragment_invocations: Option<u64>) -> FrameReport {
-        FrameReport { milliseconds, recording_milliseconds, fragment_invocations, steps: Vec::new() }
+        let (recording_began, steps) = (None, Vec::new());
+        FrameReport { milliseconds, recording_milliseconds, recording_began, fragment_invocations, steps }
     }
 
     #[test]

@@ -151,9 +151,16 @@ fn a_picture_of_no_output_is_an_error_and_reports_of_another_plan_are_no_panic()
     }
     assert!(outputs::side_by_side(Vec::new()).is_none());
     assert!(outputs::encoded(FileFormat::Png, (&plan, &plan.outputs[0]), Vec::new(), &|_| ()).is_err());
-    let step = StepReport { milliseconds: 1.0, ran: true, passes: Vec::new() };
+    let step = StepReport { milliseconds: 1.0, began: None, ran: true, passes: Vec::new() };
     for steps in [Vec::new(), vec![step.clone()], vec![step; 99]] {
-        let other = FrameReport { milliseconds: 1.0, recording_milliseconds: 1.0, fragment_invocations: None, steps };
+        let (recording_began, fragment_invocations) = (None, None);
+        let other = FrameReport {
+            milliseconds: 1.0,
+            recording_milliseconds: 1.0,
+            recording_began,
+            fragment_invocations,
+            steps,
+        };
         let of_steps = timings::rows(&plan, &[other]);
         assert!(of_steps.iter().all(|row| row.step < plan.steps.len()), "{of_steps:?}");
     }

@@ -58,7 +58,7 @@ function aboutPass(model, { node }) {
   const folded = node.kind === "folded_resolve" || node.kind === "resolve";
   const resolves = folded ? (step.step && (model.lines.get(model.stepKey(node.step)) || []).flatMap(({ line }) => [line, ...line.parts]).filter((line) => (line.kind === "resolve" || line.kind === "step" && node.kind === "resolve") && line.at === node.at)) : [];
   return [element("h2", {}, node.name), element("p", {}, node.kind.replace("_", " ") + " in ", link(model.stepKey(node.step), "step " + node.step), " ", placeLink(model, node.at)),
-    model.timed() ? element("p", { class: "time" }, model.timeWords(node)) : null,
+    model.timed() ? [element("p", { class: "time" }, model.timeWords(node)), processorNote(model)] : null,
     node.because ? [heading("Why it is there"), element("p", { class: "because" }, withLinks(node.because))] : null,
     picturesOfPass(model, node),
     lines.length > 0 ? [heading("In the Plan"), outlineList(model, lines)] : null,
@@ -142,7 +142,7 @@ function aboutStep(model, { at, step, nodes }) {
   const line = model.outline.parts.find((part) => part.key === model.stepKey(at));
   const moved = model.moved[at];
   return [element("h2", {}, "Step " + at), element("p", {}, `on the ${step.queue.toLowerCase()} queue; ${count(step.image_barriers.length + step.memory_barriers.length + step.releases.length, "barrier", "barriers")}; moves ${bytes(movedSum(moved))}; ${bytes(model.alive[at])} alive`),
-    model.timed() ? element("p", { class: "time" }, spreadWords(model.times.steps[at], model.times.frames)) : null,
+    model.timed() ? [element("p", { class: "time" }, spreadWords(model.times.steps[at], model.times.frames)), processorNote(model)] : null,
     nodes.length > 0 ? [heading("Work"), list(nodes.map((node) => link(node.key, node.name)))] : null, heading("In the Plan"), line ? outlineList(model, [line]) : null];
 }
 

@@ -49,5 +49,5 @@ function sideWords(side, other) {
 /** What differs between the two Plans of the page. */
 function comparedView() {
   const { a, b } = DATA.differences;
-  return element("div", {}, element("p", {}, element("strong", {}, "A: "), sideWords(a, b)), element("p", {}, element("strong", {}, "B: "), sideWords(b, a)), differencesList(models[1], DATA.differences));
+  return element("div", {}, element("p", {}, element("strong", {}, "A: "), sideWords(a, b)), element("p", {}, element("strong", {}, "B: "), sideWords(b, a)), DATA.sides ? comparedStates(DATA.sides) : null, differencesList(models[1], DATA.differences));
 }

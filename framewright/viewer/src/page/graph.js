@@ -182,7 +182,7 @@ function drawnBox(model, box, [x, y], unfold) {
     shape("text", { class: "end small", x: x + box.width - 8, y: y + 16, onclick: open }, [box.about, box.ms === null ? null : milliseconds(box.ms)].filter(Boolean).join(" · ")));
   let top = y + ROW + 4;
   for (const node of box.rows) {
-    made.append(shape("g", { class: node.kind, ...picks(node.key) }, shape("title", {}, node.name + (node.because ? "\n" + node.because : "")),
+    made.append(shape("g", { class: node.kind, ...picks(node.key) }, shape("title", {}, [node.name, model.timeWords(node), node.because].filter(Boolean).join("\n")),
       shape("rect", { x: x + 4, y: top, width: box.width - 8, height: ROW - 2, rx: 4 }), shape("text", { x: x + 10, y: top + 13 }, inMiddle(node.name, 48))));
     top += ROW;
   }

@@ -5,6 +5,8 @@ const SUMS = 96;
 const HEADS = 150;
 /** How high rows with pictures are. */
 const PICTURED = 56;
+/** Room above the heads for the milliseconds of steps. */
+const TIMES = 14;
 /** What a row may be, for the filter. */
 const ROW_KINDS = [["all", "all"], ["related", "related to the selection"], ["attachment", "attachments"], ["sampled", "sampled images"], ["storage", "storage"], ["kept", "what outlives the frame"]];
 
@@ -34,25 +36,27 @@ function gridView(model) {
   let rows = all;
   let tall = CELL;
   const x = (column) => NAMES + SUMS + column * CELL;
-  const y = (row) => HEADS + row * tall;
+  const headsHeight = HEADS + (model.timed() ? TIMES : 0);
+  const y = (row) => headsHeight + row * tall;
   const extent = () => [x(columns.length) + 12, y(rows.length) + 12];
   const box = scroller(extent(), "Passes and images of " + model.name, (svg, left, top, width, height) => {
     svg.setAttribute("viewBox", [0, 0, width, height].join(" "));
     const from = [Math.max(0, Math.floor(left / CELL)), Math.max(0, Math.floor(top / tall))];
-    const to = [Math.min(columns.length, Math.ceil((left + width - NAMES - SUMS) / CELL) + 1), Math.min(rows.length, Math.ceil((top + height - HEADS) / tall) + 1)];
+    const to = [Math.min(columns.length, Math.ceil((left + width - NAMES - SUMS) / CELL) + 1), Math.min(rows.length, Math.ceil((top + height - headsHeight) / tall) + 1)];
     const body = shape("g", { transform: `translate(${-left} ${-top})` });
     const heads = shape("g", { transform: `translate(${-left} 0)` });
     const names = shape("g", { transform: `translate(0 ${-top})` });
-    for (let column = from[0]; column < to[0]; column += 1) drawColumn(model, columns, column, x(column), rows.length * tall, body, heads);
+    for (let column = from[0]; column < to[0]; column += 1) drawColumn(model, columns, column, [x(column), headsHeight], rows.length * tall, body, heads);
     for (let row = from[1]; row < to[1]; row += 1) {
       drawRow(rows[row], columns, [from[0], to[0]], x, y(row) + (tall - CELL) / 2, body, names, tall > CELL ? 16 : 30);
       const capture = tall > CELL ? captureOf(rows[row].resource.name) : null;
       if (capture) names.append(tinyPicture(capture, [4, y(row) + 3, 92, tall - 6]));
     }
     const cover = (attributes) => shape("rect", { fill: "var(--ground)", ...attributes });
-    svg.append(body, cover({ x: 0, y: 0, width, height: HEADS }), heads, cover({ x: 0, y: 0, width: NAMES + SUMS, height }), names, cover({ x: 0, y: 0, width: NAMES + SUMS, height: HEADS }),
-      shape("text", { class: "small end", x: NAMES + SUMS - 8, y: 10 }, "step"), shape("text", { class: "small", x: 8, y: HEADS - 8 }, count(rows.length, "image or buffer", "images and buffers")),
-      shape("text", { class: "small end", x: NAMES + SUMS - 8, y: HEADS - 8 }, "moved"));
+    svg.append(...[body, cover({ x: 0, y: 0, width, height: headsHeight }), heads, cover({ x: 0, y: 0, width: NAMES + SUMS, height }), names, cover({ x: 0, y: 0, width: NAMES + SUMS, height: headsHeight }),
+      model.timed() ? shape("text", { class: "small end", x: NAMES + SUMS - 8, y: 23 }, "ms of the step, " + milliseconds(model.times.frame.median) + " in all") : null,
+      shape("text", { class: "small end", x: NAMES + SUMS - 8, y: 10 }, "step"), shape("text", { class: "small", x: 8, y: headsHeight - 8 }, count(rows.length, "image or buffer", "images and buffers")),
+      shape("text", { class: "small end", x: NAMES + SUMS - 8, y: headsHeight - 8 }, "moved")].filter(Boolean));
   });
   const filtered = () => {
     rows = all.filter((row) => isOfKind(row, kind));
@@ -63,7 +67,7 @@ function gridView(model) {
     const column = columns.findIndex((one) => one.key === wanted);
     const row = rows.findIndex((one) => one.key === wanted);
     if (column >= 0) box.show(column * CELL, box.scrollTop, CELL + NAMES + SUMS, 1);
-    if (row >= 0) box.show(box.scrollLeft, row * tall, 1, tall + HEADS);
+    if (row >= 0) box.show(box.scrollLeft, row * tall, 1, tall + headsHeight);
   };
   const choice = element("label", {}, "Rows: ", element("select", { onchange: (event) => { kind = event.target.value; filtered(); } }, ROW_KINDS.map(([value, words]) => element("option", { value }, words))));
   const switched = picturesSwitch((on) => {
@@ -77,15 +81,17 @@ function gridView(model) {
   return group;
 }
 
-function drawColumn(model, columns, column, left, below, body, heads) {
+function drawColumn(model, columns, column, [left, bottom], below, body, heads) {
   const { node, key, title, culled } = columns[column];
   const begins = node && (column === 0 || columns[column - 1].node?.step !== node.step);
-  if (node && node.step % 2 === 0) body.append(shape("rect", { class: "stripe", x: left, y: HEADS, width: CELL, height: below }));
+  if (node && node.step % 2 === 0) body.append(shape("rect", { class: "stripe", x: left, y: bottom, width: CELL, height: below }));
   if (begins) heads.append(shape("text", { class: "small", x: left + 2, y: 10, "data-key": model.stepKey(node.step), onclick: () => select(model.stepKey(node.step), { reveal: false }) }, node.step));
+  if (begins && model.timed()) heads.append(shape("text", { class: "small ms", x: left + 1, y: 23 }, shortTime(model.msOfStep(node.step) ?? 0)));
+  const time = node ? model.timeWords(node) : null;
   heads.append(shape("g", { class: (node ? node.kind : "") + (culled ? " culled" : ""), ...picks(key) },
-    shape("title", {}, culled ? title + ": " + culled : title),
-    shape("rect", { x: left + 1, y: 14, width: CELL - 2, height: HEADS - 16, rx: 3, fill: "none" }),
-    shape("text", { transform: `translate(${left + 15} ${HEADS - 6}) rotate(-90)` }, inMiddle(title, 19))));
+    shape("title", {}, culled ? title + ": " + culled : time ? title + ": " + time : title),
+    shape("rect", { x: left + 1, y: bottom - HEADS + 14, width: CELL - 2, height: HEADS - 16, rx: 3, fill: "none" }),
+    shape("text", { transform: `translate(${left + 15} ${bottom - 6}) rotate(-90)` }, inMiddle(title, 19))));
 }
 
 function drawRow({ key, resource, first, last, marks, moved }, columns, [from, to], x, top, body, names, letters) {

@@ -180,9 +180,10 @@ function showState(state, page) {
     live.texts = texts;
     const data = page ?? { plans: [], differences: null, devices: [], captures: [], texts: state.sources };
     if (data.plans[0]) data.plans[0].sources = sourcesOf(state, page);
-    showData({ ...data, live: live.format });
+    past.newest = { ...data, live: live.format };
+    if (!past.compared) showData(past.newest);
   }
-  if (state.times && models[0]) showTimes(state.times);
+  if (state.times && models[0] && !past.compared) showTimes(state.times);
   showStatus();
   liveView();
   showTools(state);
@@ -231,9 +232,15 @@ async function follow() {
     }
     if (told) {
       // Another server counts anew.
-      if (told.live.server !== live.server) Object.assign(live, { server: told.live.server, frame: 0, outputs: null });
+      if (told.live.server !== live.server) {
+        Object.assign(live, { server: told.live.server, frame: 0, outputs: null });
+        past.compared = null;
+        showComparedBar();
+      }
       live.version = told.live.version;
+      past.states = told.history ?? [];
       showState(told.live, told.page);
+      showHistory(told.history);
     } else if (!live.state || live.state.program && !live.state.program.held) live.bar.status.textContent = live.state ? "The program has ended no frame for a while." : "The program has ended no frame yet.";
     else showStatus();
   }

@@ -6,6 +6,7 @@ function viewsOf(data) {
   return [
     data.live ? alone("live", "Live", liveView) : null,
     data.saved ? alone("saved", "Frame", savedView) : null,
+    data.live && past.states.length > 0 ? alone("history", "History", historyView) : null,
     data.differences ? alone("differences", "Differences", comparedView) : null,
     { name: "overview", title: "Overview", make: overviewView },
     // It stays itself while other Plans are shown.

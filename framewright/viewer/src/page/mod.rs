@@ -18,6 +18,7 @@ const TEMPLATE: Template<'_> = Template {
     style: concat!(include_str!("page.css"), include_str!("pictures.css")),
     script: concat!(
         include_str!("elements.js"),
+        include_str!("times.js"),
         include_str!("model.js"),
         include_str!("selection.js"),
         include_str!("overview.js"),
@@ -38,6 +39,7 @@ const TEMPLATE: Template<'_> = Template {
         include_str!("stage.js"),
         include_str!("large.js"),
         include_str!("details.js"),
+        include_str!("history.js"),
         include_str!("live.js"),
         include_str!("what_if.js"),
         include_str!("saved.js"),
@@ -148,6 +150,14 @@ pub(crate) fn saved_page(data: &serde_json::Value) -> serde_json::Result<String>
 /// If a Plan has no JSON form.
 pub fn page_data(page: &Page<'_>) -> serde_json::Result<String> {
     serde_json::to_string(&data(page))
+}
+
+/// The data of a page, for a member to be added.
+///
+/// # Errors
+/// If a Plan has no JSON form.
+pub(crate) fn page_value(page: &Page<'_>) -> serde_json::Result<serde_json::Value> {
+    serde_json::to_value(data(page))
 }
 
 fn data<'a>(page: &'a Page<'a>) -> Data<'a> {

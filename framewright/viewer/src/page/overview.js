@@ -85,10 +85,11 @@ function overviewParts(model) {
   return [
     element("p", {}, `${extent.join("×")} texels on ${device.name}`, chosen ? element("span", { class: "faint" }, "; " + chosen) : null),
     element("div", { class: "figures" }, figures),
+    timesNote(model),
     element("div", { class: "cards" },
       card("Picture", element("div", { class: "picture" }, pictureOf(model))),
       card(model.timed() ? "Slowest steps" : "Steps that move most", dearestSteps(model)),
       card("Largest images and buffers", dearestImages(model)),
       card("What stands out", hints, "standing")),
-  ];
+  ].filter(Boolean);
 }

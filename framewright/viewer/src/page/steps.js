@@ -16,7 +16,7 @@ function stepsView(model) {
     return details;
   });
   const all = element("button", { type: "button", onclick: () => made.forEach((one) => { one.open = !made.every((other) => other.open) || one.open === false; }) }, "Open all");
-  const box = element("div", {}, made.length <= 300 ? element("p", {}, all) : null, made);
+  const box = element("div", {}, timesNote(model), made.length <= 300 ? element("p", {}, all) : null, made);
   box.reveal = (wanted) => {
     const model_step = model.byKey.get(wanted);
     const step = model_step?.kind === "pass" ? model_step.node.step : model_step?.at;

@@ -1,13 +1,17 @@
-/** The timeline: a lane for each queue, waits and barriers, below them the memory that is alive, and each image over its steps. */
+/**
+ * The timeline: a lane for the host that records and one for each queue, waits and barriers as arrows, below them the memory that is alive,
+ * and each image over its steps. A line through all of it follows the pointer.
+ */
 const LANE_HEIGHT = 46;
 const LANES_TOP = 22;
+const RECORDING_HEIGHT = 26;
 const ALIVE_HEIGHT = 70;
 const IMAGE_ROW = 18;
 const NAME_ROOM = 190;
 /** What the width of a step may mean. */
 const WIDTHS = [["equal", "equal"], ["bytes", "bytes moved"], ["ms", "milliseconds"]];
 
-/** Where each step begins and ends, from left to right. */
+/** Where each step begins and ends, from left to right; and how wide a millisecond is, if widths are milliseconds. */
 function stepsOver(model, kind) {
   const { steps } = model.plan;
   const weights = steps.map((_, at) => kind === "bytes" ? movedSum(model.moved[at]) : kind === "ms" ? model.msOfStep(at) ?? 0 : 1);
@@ -17,7 +21,27 @@ function stepsOver(model, kind) {
   const widths = weights.map((weight) => kind === "equal" ? Math.max(26, Math.min(90, room / steps.length)) : 6 + weight / sum * room);
   const starts = [0];
   widths.forEach((width) => starts.push(starts.at(-1) + width));
-  return starts;
+  return { starts, perMs: kind === "ms" ? room / sum : null };
+}
+
+/**
+ * The work that barriers of steps wait for: `[from, to, words]`. The other side of an image's barrier is the step before that used the image, and
+ * where memory changes hands the last step of what had it before.
+ */
+function hazards(model) {
+  const found = new Map();
+  const rows = new Map(model.rows().map((row) => [row.key, [...row.steps.keys()].sort((one, other) => one - other)]));
+  model.plan.steps.forEach((step, to) => {
+    for (const { image } of step.image_barriers) {
+      const key = model.resourceKey({ image });
+      const from = (rows.get(key) ?? []).findLast((at) => at < to);
+      if (from === undefined) continue;
+      const arrow = from + " " + to;
+      if (!found.has(arrow)) found.set(arrow, { from, to, names: [] });
+      found.get(arrow).names.push(nameOf(key));
+    }
+  });
+  return [...found.values()];
 }
 
 function timelineView(model) {
@@ -25,28 +49,41 @@ function timelineView(model) {
   const { steps } = model.plan;
   const lanes = [...new Set(steps.map((step) => step.queue))];
   const rows = model.rows();
-  const lanesEnd = LANES_TOP + lanes.length * LANE_HEIGHT;
+  const lanesTop = LANES_TOP + (model.timed() ? RECORDING_HEIGHT : 0);
+  const lanesEnd = lanesTop + lanes.length * LANE_HEIGHT;
+  const arrows = hazards(model);
   const aliveEnd = lanesEnd + ALIVE_HEIGHT + 18;
   let kind = model.timed() ? "ms" : "equal";
-  let starts = stepsOver(model, kind);
+  let { starts, perMs } = stepsOver(model, kind);
   const x = (at) => NAME_ROOM + starts[at];
-  const laneTop = (at) => LANES_TOP + lanes.indexOf(steps[at].queue) * LANE_HEIGHT;
-  const extent = () => [x(steps.length) + 16, aliveEnd + rows.length * IMAGE_ROW + 16];
+  const laneTop = (at) => lanesTop + lanes.indexOf(steps[at].queue) * LANE_HEIGHT;
+  const recording = () => !model.timed() ? 0 : perMs === null ? starts.at(-1) : Math.max(2, model.times.recording.median * perMs);
+  const extent = () => [NAME_ROOM + Math.max(starts.at(-1), recording()) + 16, aliveEnd + rows.length * IMAGE_ROW + 16];
   const cross = element("p", { class: "hint", role: "status" }, "\u00a0");
   let pointed = null;
   const box = scroller(extent(), "Timeline of " + model.name, (svg, left, top, width, height) => {
     svg.setAttribute("viewBox", [0, 0, width, height].join(" "));
+    const marker = { viewBox: "0 0 8 8", refX: 7, refY: 4, markerWidth: 7, markerHeight: 7, markerUnits: "userSpaceOnUse", orient: "auto" };
+    svg.append(shape("defs", {}, ["wait", "hazard"].map((kind) => shape("marker", { id: "end-of-" + kind, ...marker }, shape("path", { class: "head of-" + kind, d: "M0 0L8 4L0 8z" })))));
     const moving = shape("g", { transform: `translate(${-left} ${-top})` });
     const names = shape("g", { transform: `translate(0 ${-top})` });
     const seen = (at) => x(at + 1) >= left && x(at) <= left + width;
     lanes.forEach((lane, at) => {
-      const laneY = LANES_TOP + at * LANE_HEIGHT;
+      const laneY = lanesTop + at * LANE_HEIGHT;
       moving.append(shape("rect", { class: "lane", x: NAME_ROOM, y: laneY, width: starts.at(-1), height: LANE_HEIGHT - 6 }));
       names.append(shape("text", { class: "end", x: NAME_ROOM - 10, y: laneY + 24 }, lane.toLowerCase() + " queue"));
     });
+    if (model.timed()) {
+      const words = "the host records " + milliseconds(model.times.recording.median) + (perMs === null ? ", beside all of it" : "");
+      moving.append(shape("g", { class: "recording" }, shape("title", {}, words + " (" + spreadWords(model.times.recording, model.times.frames) + ")"), shape("rect", { x: NAME_ROOM, y: LANES_TOP + 2, width: recording(), height: RECORDING_HEIGHT - 8, rx: 3 })),
+        shape("text", { class: "small", x: NAME_ROOM + 6 + (recording() < 200 ? recording() : 0), y: LANES_TOP + 14 }, words));
+      names.append(shape("text", { class: "end", x: NAME_ROOM - 10, y: LANES_TOP + 15 }, "recording"));
+    }
     moving.append(...aliveCurve(model, x, lanesEnd + 16, ALIVE_HEIGHT));
     names.append(shape("text", { class: "end", x: NAME_ROOM - 10, y: lanesEnd + 30 }, "memory alive"), shape("text", { class: "end small", x: NAME_ROOM - 10, y: lanesEnd + 44 }, "peak " + bytes(model.plan.totals.live_peak_bytes)));
     steps.forEach((_, at) => { if (seen(at)) moving.append(stepBox(model, at, [x(at), laneTop(at), x(at + 1) - x(at)])); });
+    const here = pointed === null ? -1 : stepAt(pointed);
+    arrows.forEach((arrow) => { if (seen(arrow.from) || seen(arrow.to)) moving.append(hazardArrow(arrow, [x(arrow.from + 1), laneTop(arrow.from)], [x(arrow.to), laneTop(arrow.to)], arrow.to === here || arrow.from === here)); });
     steps.forEach((step, at) => step.waits.forEach((wait) => { if (wait.frames_ago === 0) moving.append(waitArrow(wait, at, [x(wait.step + 1), laneTop(wait.step)], [x(at), laneTop(at)])); }));
     rows.forEach((row, at) => {
       const rowY = aliveEnd + at * IMAGE_ROW;
@@ -58,9 +95,10 @@ function timelineView(model) {
     const cover = shape("rect", { fill: "var(--ground)", x: 0, y: 0, width: NAME_ROOM - 4, height });
     svg.append(moving, cover, names);
   });
+  const stepAt = (place) => starts.findIndex((start, index) => index < steps.length && place >= x(index) && place < x(index + 1));
   box.addEventListener("pointermove", (event) => {
     pointed = event.clientX - box.getBoundingClientRect().left + box.scrollLeft;
-    const at = starts.findIndex((start, index) => pointed >= x(index) && pointed < x(index + 1));
+    const at = stepAt(pointed);
     cross.textContent = visible(at < 0 ? "\u00a0" : stepWords(model, at));
     box.redraw();
   });
@@ -76,10 +114,10 @@ function timelineView(model) {
   const words = lanes.length <= 1 ? `All ${count(steps.length, "step", "steps")} run on one queue.` : `${count(steps.length, "step", "steps")} on ${lanes.length} queues, with ${count(waits, "wait", "waits")} between them.`;
   const choice = element("label", {}, "Width: ", element("select", { onchange: (event) => {
     kind = event.target.value;
-    starts = stepsOver(model, kind);
+    ({ starts, perMs } = stepsOver(model, kind));
     box.resize(extent());
   } }, WIDTHS.filter(([value]) => value !== "ms" || model.timed()).map(([value, shown]) => element("option", { value, selected: value === kind }, shown))));
-  const group = element("div", { class: "fills" }, element("p", { class: "tools" }, choice, element("span", { class: "hint" }, words + " A red edge is a barrier, an arrow a wait.")), box, cross);
+  const group = element("div", { class: "fills" }, element("p", { class: "tools" }, choice, element("span", { class: "hint" }, words + " A red edge is a barrier, with an arrow from the step that it waits for; a thick arrow is a wait between queues.")), timesNote(model), box, cross);
   group.redraw = box.redraw;
   group.reveal = box.reveal;
   return group;
@@ -105,8 +143,16 @@ function stepBox(model, at, [left, top, width]) {
     width > 40 ? shape("text", { class: "middle small", x: left + width / 2, y: top + 29 }, inMiddle(nodes[0]?.name ?? "", Math.floor(width / 6.5))) : null);
 }
 
-const waitArrow = (wait, at, [fromX, fromY], [toX, toY]) => shape("path", { class: "wait", d: `M${fromX - 2} ${fromY + 20}C${fromX + 20} ${fromY + 20} ${toX - 20} ${toY + 20} ${toX + 2} ${toY + 20}`, "marker-end": "url(#end)" },
+const waitArrow = (wait, at, [fromX, fromY], [toX, toY]) => shape("path", { class: "wait", d: `M${fromX - 2} ${fromY + 20}C${fromX + 20} ${fromY + 20} ${toX - 20} ${toY + 20} ${toX + 2} ${toY + 20}`, "marker-end": "url(#end-of-wait)" },
   shape("title", {}, `step ${at} waits in ${wait.stages} for step ${wait.step}`));
+
+/** From the end of a step to the beginning of a later one that a barrier makes wait for it, below their boxes. */
+const hazardArrow = ({ from, to, names }, [fromX, fromY], [toX, toY], near) => {
+  const [fromEdge, toEdge] = [fromY, toY].map((top) => top + LANE_HEIGHT - 12);
+  const low = Math.max(fromEdge, toEdge) + 7;
+  return shape("path", { class: near ? "hazard near" : "hazard", d: `M${fromX - 4} ${fromEdge}C${fromX + 4} ${low} ${toX - 8} ${low} ${toX + 2} ${toEdge}`, "marker-end": "url(#end-of-hazard)" },
+    shape("title", {}, `a barrier before step ${to} waits for step ${from}: ${names.join(", ")}`));
+};
 
 /** The bytes that are alive over the steps, with the least that any placement takes. */
 function aliveCurve(model, x, top, height) {

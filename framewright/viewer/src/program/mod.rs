@@ -227,26 +227,37 @@ impl Viewer {
         if choices.is_empty() {
             return false;
         }
-        let chosen = self.chosen.entry(renderer.id()).or_default();
         for choice in &choices {
             let mut refused = Vec::new();
             match choice {
                 Choice::Set(values) => {
                     for (name, value) in values {
-                        match renderer.set(name, value) {
-                            Ok(()) => drop(chosen.insert(name.clone(), value.clone())),
-                            Err(error) => refused.push(error),
-                        }
+                        refused.extend(self.set(renderer, name, value).err());
                     }
                 }
-                Choice::Preset(preset) => {
-                    std::mem::take(chosen).keys().for_each(|name| renderer.unset(name));
-                    refused.extend(renderer.preset(preset.as_deref()).err());
+                Choice::Preset(preset) => refused.extend(self.take_back(renderer, preset.as_deref()).err()),
+                Choice::Exactly { preset, set } => {
+                    refused.extend(self.take_back(renderer, preset.as_deref()).err());
+                    for (name, value) in set {
+                        refused.extend(self.set(renderer, name, value).err());
+                    }
                 }
             }
             self.refused = refused.first().map(ShownMistakes::of_error);
         }
         true
+    }
+
+    fn set(&mut self, renderer: &mut Renderer, name: &str, value: &str) -> Result<(), Error> {
+        renderer.set(name, value)?;
+        self.chosen.entry(renderer.id()).or_default().insert(name.to_owned(), value.to_owned());
+        Ok(())
+    }
+
+    /// Takes back all that was chosen, and chooses a preset.
+    fn take_back(&mut self, renderer: &mut Renderer, preset: Option<&str>) -> Result<(), Error> {
+        self.chosen.remove(&renderer.id()).unwrap_or_default().keys().for_each(|name| renderer.unset(name));
+        renderer.preset(preset)
     }
 
     fn publish(&mut self) -> Result<(), Error> {
@@ -294,6 +305,7 @@ impl Viewer {
             server: Arc::clone(&self.id),
             json: format!("{{\"live\":{live},\"page\":{page}}}").into(),
             pictures: Arc::clone(&shown.pictures),
+            history: Arc::default(),
         });
         Ok(())
     }

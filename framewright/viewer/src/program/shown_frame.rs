@@ -63,6 +63,7 @@ impl ShownFrame {
             controls: Controls::of(renderer.document(), plan),
             device: summary.name.clone(),
             driver: summary.driver.clone(),
+            last: LastFrames::on(renderer.device()),
             ..ShownFrame::default()
         }))
     }

@@ -192,6 +192,7 @@ fn routes(shared: ServerState) -> Router {
         .route(&at("/picture/{*name}"), get(picture))
         .route(&at("/frame.html"), get(frame))
         .route(&at("/about"), get(about))
+        .route(&at("/compare/{a}/{b}"), get(compare))
         .route(&at("/choose"), post(choose))
         .route(&at("/look"), post(look))
         .route(&at("/pictures"), post(pictures))
@@ -315,6 +316,15 @@ async fn look(State(shared): State<ServerState>, body: Bytes) -> Response {
             StatusCode::NO_CONTENT.into_response()
         }
         Err(problem) => (StatusCode::BAD_REQUEST, format!("no look: {problem}")).into_response(),
+    }
+}
+
+async fn compare(State(shared): State<ServerState>, Path((a, b)): Path<(u64, u64)>) -> Response {
+    let history = Arc::clone(&shared.shown.borrow().history);
+    match history.compared(a, b) {
+        Ok(Some(data)) => ([(CONTENT_TYPE, "application/json")], data).into_response(),
+        Ok(None) => (StatusCode::NOT_FOUND, "one of the states is forgotten").into_response(),
+        Err(_) => StatusCode::INTERNAL_SERVER_ERROR.into_response(),
     }
 }
 

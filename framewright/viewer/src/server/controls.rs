@@ -71,6 +71,13 @@ impl Range {
 pub enum Choice {
     /// Settings get these values, beside those that were chosen before.
     Set(BTreeMap<String, String>),
+    /// The preset of this name with settings of these values, and nothing else that was chosen in the page: those of an earlier state.
+    Exactly {
+        /// The preset; `None`: that of the command line.
+        preset: Option<String>,
+        /// The settings.
+        set: BTreeMap<String, String>,
+    },
     /// The preset of this name, and nothing else that was chosen in the page; `None`: that of the command line.
     Preset(Option<String>),
 }

@@ -1,6 +1,7 @@
 //! What browsers are told: the state of the page, numbered, and its pictures.
 
 use super::controls::Controls;
+use crate::history::History;
 use crate::times::Times;
 use serde::Serialize;
 use serde_json::Value;
@@ -14,10 +15,13 @@ pub struct PublishedState {
     pub version: u64,
     /// The server that numbers them.
     pub server: Arc<str>,
-    /// The state as JSON: `live` is a [`LiveState`], `page` the data of the page of the last good frame, or null.
+    /// The state as JSON: `live` is a [`LiveState`], `page` the data of the page of the last good frame, or null;
+    /// of a server that keeps earlier states, `history` lists them.
     pub json: Arc<str>,
     /// PNG files of the last good frame, by their addresses.
     pub pictures: Arc<BTreeMap<String, Arc<[u8]>>>,
+    /// Earlier states, of which browsers ask for two to be compared.
+    pub history: Arc<History>,
 }
 
 /// The part of a state that changes even where the last good frame stays.

@@ -57,7 +57,7 @@ room! {
 
     /// Results can't be used.
     ///
-    /// A file or folder of results is damaged, is of another sweep, or lacks what a limit asks for. The message says which.
+    /// A file or folder of results is damaged, is of another sweep or Plan, or lacks what a limit asks for. The message says which.
     RESULTS = 1611,
 
     /// The command was interrupted.
@@ -80,4 +80,9 @@ room! {
     ///
     /// Only pictures of one size are compared, by pixels that are finite in both.
     NOT_COMPARABLE = 1615,
+
+    /// RenderDoc isn't there, or took nothing.
+    ///
+    /// RenderDoc starts the programs that it looks into. The message has the command. It takes nothing of a device that it can't replay.
+    RENDERDOC = 1616,
 }
