@@ -85,12 +85,13 @@ impl Subscriber for Collector {
 #[test]
 fn lv_10_a_subscriber_sees_what_the_host_does_with_the_frames_number() {
     let Some(device) = render::device() else { return };
-    WATCHED.set(thread::current().id()).expect("nobody else watches");
-    dispatcher::set_global_default(Dispatch::new(Collector)).expect("nobody else sets one");
     let scene = load_scene("spheres_and_cubes").expect("a scene");
     let mut renderer = Renderer::open(device, "forward", RendererOptions::default()).expect("opened");
     renderer.set_scene(&scene);
     renderer.set_extent([64, 48]).expect("a size");
+    // The device was tested by now, which draws frames too.
+    WATCHED.set(thread::current().id()).expect("nobody else watches");
+    dispatcher::set_global_default(Dispatch::new(Collector)).expect("nobody else sets one");
     for _ in 0..2 {
         let plan = renderer.prepare().expect("planned").plan;
         let mut objects = SceneDrawSource::for_plan(device, &scene, [64, 48], plan).expect("uploaded");
