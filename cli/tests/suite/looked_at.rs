@@ -97,7 +97,7 @@ fn look_closely(browser: &mut Browser) -> String {
     let sums = browser.text(&format!(
         "histogramOf({VIEW}.picture).channels.map(({{ bins, others }}) => bins.reduce((a, b) => a + b) + others).join()"
     ));
-    assert_eq!(sums, vec!["3072"; 4].join(","));
+    assert_eq!(sums, ["3072"; 4].join(","));
     // A range is drawn from its darkest to its brightest number.
     let pixels = format!(
         "(() => {{ const [{{ canvas }}] = {VIEW}.layers; return [...canvas.getContext('2d').getImageData(0, 0, 64, 48).data].reduce((a, b) => a + b); }})()"

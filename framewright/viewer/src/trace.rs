@@ -277,8 +277,11 @@ mod tests {
         trace["traceEvents"].as_array().expect("a list").clone()
     }
 
-    /// The spans of each track as nanoseconds: begin, end and name.
-    fn tracks(events: &[Value]) -> BTreeMap<(u64, u64), Vec<(u64, u64, String)>> {
+    /// A span: begin and end in nanoseconds, and its name.
+    type Span = (u64, u64, String);
+
+    /// The spans of each track, by process and thread.
+    fn tracks(events: &[Value]) -> BTreeMap<(u64, u64), Vec<Span>> {
         let mut tracks: BTreeMap<_, Vec<_>> = BTreeMap::new();
         for event in events.iter().filter(|event| event["ph"] == "X") {
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few milliseconds")]
@@ -292,9 +295,9 @@ mod tests {
     }
 
     /// Makes sure that what begins within another span ends within it.
-    fn nest(tracks: &BTreeMap<(u64, u64), Vec<(u64, u64, String)>>) {
+    fn nest(tracks: &BTreeMap<(u64, u64), Vec<Span>>) {
         for (track, spans) in tracks {
-            let mut around: Vec<&(u64, u64, String)> = Vec::new();
+            let mut around: Vec<&Span> = Vec::new();
             for span in spans {
                 while around.last().is_some_and(|outer| outer.1 <= span.0) {
                     around.pop();
