@@ -59,7 +59,10 @@ function openLarge(capture) {
     if (large.open === dialog) large.open = null;
   });
   // Keys of the page behind it stay there.
-  dialog.addEventListener("keydown", (event) => { if (event.key !== "Escape") event.stopPropagation(); });
+  dialog.addEventListener("keydown", (event) => {
+    event.stopPropagation();
+    if (event.key === "Escape") dialog.close();
+  });
   document.body.append(dialog);
   dialog.showModal();
   const resized = new ResizeObserver(() => {
