@@ -56,7 +56,6 @@ mod rays_and_addresses;
 mod readme;
 mod reference;
 mod release;
-mod reloads;
 mod renderdoc;
 mod rotation;
 mod running_program;

@@ -54,7 +54,7 @@ fn lv_8_the_plan_of_webassembly_is_the_commands_byte_for_byte() {
     let place = Place::new();
     let devices: Vec<&str> = SHIPPED_PROFILES.iter().map(|(name, _)| *name).collect();
     let mut compared = 0;
-    for name in shipped_pipelines() {
+    for name in sweep::of("pipelines by WebAssembly", shipped_pipelines(), 5) {
         browser.open_file(&page(&place, &name, &[]), "#view=what-if");
         let plans = browser.ask(&format!(
             "(async () => {{ await unpackWhatIf(); const plans = []; for (const device of {}) {{ \
@@ -74,7 +74,7 @@ fn lv_8_the_plan_of_webassembly_is_the_commands_byte_for_byte() {
         }
         browser.has_no_errors();
     }
-    assert!(compared > 30, "{compared}");
+    assert!(compared >= 15, "{compared}");
 }
 
 #[test]
