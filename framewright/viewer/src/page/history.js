@@ -89,7 +89,7 @@ function leaveComparison() {
 function showComparedBar() {
   document.getElementById("compared")?.remove();
   if (!past.compared) return;
-  live.bar.status.after(element("p", { id: "compared", role: "status" }, `States ${past.compared.join(" and ")} are compared. The newest is drawn all the same.`,
+  live.bar.status.after(element("p", { id: "compared", role: "status" }, `States ${past.compared.join(" and ")} stand in every view. Newer frames are still drawn.`,
     element("button", { type: "button", id: "newest", onclick: leaveComparison }, "Back to the newest")));
 }
 

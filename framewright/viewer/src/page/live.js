@@ -182,6 +182,7 @@ function showState(state, page) {
     if (data.plans[0]) data.plans[0].sources = sourcesOf(state, page);
     past.newest = { ...data, live: live.format };
     if (!past.compared) showData(past.newest);
+    largeIsOld();
   }
   if (state.times && models[0] && !past.compared) showTimes(state.times);
   showStatus();

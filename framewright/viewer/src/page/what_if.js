@@ -96,7 +96,7 @@ function whatIfView() {
   begin().catch((error) => { status.textContent = `Nothing is compiled here: ${error.message ?? error}. Browsers since 2023 do it.`; });
   return element("div", { class: "what-if" },
     element("p", { class: "hint" }, "Change anything: the Plan is made anew, and every view shows it. Shaders aren't compiled here: the page carries what the compiler asks of them, for the choices that were tried when the page was made. Nothing leaves this page."),
-    status, element("div", { class: "halves" }, element("div", {}, parts.controls, parts.editor), parts.result));
+    status, element("div", { class: "beside" }, element("div", {}, parts.controls, parts.editor), parts.result));
 }
 
 async function begin() {
