@@ -40,7 +40,7 @@ function drawHistory() {
     showHistory(past.states);
   } });
   const rows = [...past.states].reverse().map((state) => element("tr", {}, element("td", {}, pick("a", state.version)), element("td", {}, pick("b", state.version)),
-    element("td", { class: "number" }, state.version), element("td", {}, new Date(state.drawn_at).toLocaleTimeString()),
+    element("td", { class: "number" }, state.version), element("td", { class: "time" }, new Date(state.drawn_at).toLocaleTimeString()),
     element("td", {}, state.changed.map((what) => element("div", {}, what))),
     element("td", { class: "number" }, state.milliseconds === null ? "" : milliseconds(state.milliseconds)),
     element("td", {}, state.pictures.length > 0 ? element("img", { src: state.pictures[0], alt: "picture of state " + state.version }) : ""),
@@ -96,7 +96,7 @@ function showComparedBar() {
 /** The pictures and times of the two states that are compared, side by side. */
 function comparedStates([a, b]) {
   const time = (state) => state.milliseconds === null ? "no times" : milliseconds(state.milliseconds) + " of the device, " + milliseconds(state.recording) + " to record";
-  const change = a.milliseconds > 0 && b.milliseconds > 0 ? element("p", {}, `B takes ${(b.milliseconds / a.milliseconds * 100).toFixed(0)} % of the device's time of A.`) : null;
+  const change = a.milliseconds > 0 && b.milliseconds > 0 ? element("p", {}, `B takes ${(b.milliseconds / a.milliseconds * 100).toFixed(0)} % of A's time on the device.`) : null;
   return [change, element("div", { class: "sides" }, [["A", a], ["B", b]].map(([letter, state]) => element("figure", {}, state.pictures.length > 0 ? element("img", { src: state.pictures[0], alt: `picture of ${letter}` }) : null,
     element("figcaption", {}, element("strong", {}, `${letter}: state ${state.version}`), `, ${choiceWords(state)}; ${time(state)}`, element("div", { class: "faint" }, state.took)))))];
 }
