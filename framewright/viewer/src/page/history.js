@@ -47,8 +47,8 @@ function drawHistory() {
     element("td", {}, choiceWords(state), choiceOf(state) === now ? "" : [" ", element("button", { type: "button", "data-setting": "take" + state.version, onclick: () => take(state) }, "take again")])));
   const comparable = past.a !== null && past.b !== null && past.a !== past.b;
   box.replaceChildren(
-    element("p", { class: "tools" }, element("button", { type: "button", id: "compare", disabled: !comparable, onclick: compare }, "Compare A and B"),
-      element("button", { type: "button", id: "undo", disabled: !before, onclick: () => take(before) }, "Undo settings"),
+    element("p", { class: "tools" }, element("button", { type: "button", id: "compare", "data-setting": "compare", disabled: !comparable, onclick: compare }, "Compare A and B"),
+      element("button", { type: "button", id: "undo", "data-setting": "undo", disabled: !before, onclick: () => take(before) }, "Undo settings"),
       element("span", { class: "hint" }, "The last twenty frames that were drawn, the newest first. Fewer are kept where their pictures and Plans take more than 128 MiB.")),
     element("div", { class: "wide" }, element("table", {}, element("thead", {}, element("tr", {}, ["A", "B", "state", "at", "what changed", "device", "picture", "settings"].map((name) => element("th", { scope: "col" }, name)))), element("tbody", {}, rows))));
   if (focused) [...box.querySelectorAll("[data-setting]")].find((one) => one.dataset.setting === focused)?.focus();

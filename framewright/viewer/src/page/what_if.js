@@ -156,7 +156,7 @@ function showAnswer({ view, wrong }, ms) {
   if (wrong) {
     status.textContent = wrong.mistakes.length > 0 ? "There is no such Plan: " + count(wrong.mistakes.length, "mistake", "mistakes") + ". The views show the last one." : "There is no such Plan.";
     result.replaceChildren(element("pre", { class: "wrong" }, wrong.message), ...wrong.mistakes.filter((mistake) => mistake.file).map((mistake) =>
-      element("button", { type: "button", class: "link place", onclick: () => showLine(mistake) }, `${mistake.file}:${mistake.line}`)));
+      element("button", { type: "button", class: "link place", onclick: () => showLine(mistake) }, `${mistake.file}:${mistake.line}`)).flatMap((place) => [place, " "]));
     return;
   }
   const { page } = whatIf;
