@@ -192,7 +192,7 @@ function drawnBox(model, box, [x, y], unfold) {
       shape("text", { class: "end small", x: x + box.width - 10, y: top + 13, "pointer-events": "none" }, about));
     top += ROW;
     if (!capture) continue;
-    made.append(tinyPicture(capture, [x + 10, top, box.width - 20, BOX_PICTURE - 6]));
+    made.append(tinyPicture(capture, "graph:" + key, [x + 10, top, box.width - 20, BOX_PICTURE - 6]));
     top += BOX_PICTURE;
   }
   return made;

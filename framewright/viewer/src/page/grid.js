@@ -50,7 +50,7 @@ function gridView(model) {
     for (let row = from[1]; row < to[1]; row += 1) {
       drawRow(rows[row], columns, [from[0], to[0]], x, y(row) + (tall - CELL) / 2, body, names, tall > CELL ? 16 : 30);
       const capture = tall > CELL ? captureOf(rows[row].resource.name) : null;
-      if (capture) names.append(tinyPicture(capture, [4, y(row) + 3, 92, tall - 6]));
+      if (capture) names.append(tinyPicture(capture, "grid:" + rows[row].key, [4, y(row) + 3, 92, tall - 6]));
     }
     const cover = (attributes) => shape("rect", { fill: "var(--ground)", ...attributes });
     svg.append(...[body, cover({ x: 0, y: 0, width, height: headsHeight }), heads, cover({ x: 0, y: 0, width: NAMES + SUMS, height }), names, cover({ x: 0, y: 0, width: NAMES + SUMS, height: headsHeight }),

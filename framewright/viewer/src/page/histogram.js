@@ -5,7 +5,7 @@ const CHANNEL_COLORS = ["var(--bad)", "#3a9d4a", "var(--accent)", "var(--faint)"
 /** The names of a picture's channels. */
 const channelNames = (picture) => picture.channels === 1 ? [/^(D|X8_D)\d/.test(picture.format) && !picture.stencil ? "depth" : picture.stencil ? "stencil" : "r"] : ["r", "g", "b", "a"].slice(0, picture.channels);
 
-/** Counts of the numbers of each channel between the smallest and the largest, and of those that are neither. */
+/** Counts of the numbers of each channel between the smallest and the largest, and of those that are NaN or infinite. */
 function histogramOf(picture) {
   const values = decoded(picture);
   const [low, high] = picture.range ?? [0, 1];
@@ -37,7 +37,7 @@ function histogram(picture, ranged) {
   };
   words.textContent = `${Number(low.toPrecision(4))} to ${Number(high.toPrecision(4))}`;
   const others = channels.reduce((sum, one) => sum + one.others, 0);
-  return element("div", { class: "ranged" }, svg, handles, element("p", { class: "faint" }, "Drawn: ", words, others > 0 ? `; ${count(others, "number is", "numbers are")} neither` : "", element("br"),
+  return element("div", { class: "ranged" }, svg, handles, element("p", { class: "faint" }, "Drawn: ", words, others > 0 ? `; ${count(others, "number is", "numbers are")} NaN or infinite` : "", element("br"),
     channels.map(({ name }, at) => {
       const swatch = element("span", { class: "swatch" });
       swatch.style.background = CHANNEL_COLORS[at];

@@ -40,15 +40,15 @@ function drawHistory() {
     showHistory(past.states);
   } });
   const rows = [...past.states].reverse().map((state) => element("tr", {}, element("td", {}, pick("a", state.version)), element("td", {}, pick("b", state.version)),
-    element("td", { class: "number" }, state.version), element("td", {}, new Date(state.drawn_at).toLocaleTimeString()),
+    element("td", { class: "number" }, state.version), element("td", { class: "time" }, new Date(state.drawn_at).toLocaleTimeString()),
     element("td", {}, state.changed.map((what) => element("div", {}, what))),
     element("td", { class: "number" }, state.milliseconds === null ? "" : milliseconds(state.milliseconds)),
     element("td", {}, state.pictures.length > 0 ? element("img", { src: state.pictures[0], alt: "picture of state " + state.version }) : ""),
     element("td", {}, choiceWords(state), choiceOf(state) === now ? "" : [" ", element("button", { type: "button", "data-setting": "take" + state.version, onclick: () => take(state) }, "take again")])));
   const comparable = past.a !== null && past.b !== null && past.a !== past.b;
   box.replaceChildren(
-    element("p", { class: "tools" }, element("button", { type: "button", id: "compare", disabled: !comparable, onclick: compare }, "Compare A and B"),
-      element("button", { type: "button", id: "undo", disabled: !before, onclick: () => take(before) }, "Undo settings"),
+    element("p", { class: "tools" }, element("button", { type: "button", id: "compare", "data-setting": "compare", disabled: !comparable, onclick: compare }, "Compare A and B"),
+      element("button", { type: "button", id: "undo", "data-setting": "undo", disabled: !before, onclick: () => take(before) }, "Undo settings"),
       element("span", { class: "hint" }, "The last twenty frames that were drawn, the newest first. Fewer are kept where their pictures and Plans take more than 128 MiB.")),
     element("div", { class: "wide" }, element("table", {}, element("thead", {}, element("tr", {}, ["A", "B", "state", "at", "what changed", "device", "picture", "settings"].map((name) => element("th", { scope: "col" }, name)))), element("tbody", {}, rows))));
   if (focused) [...box.querySelectorAll("[data-setting]")].find((one) => one.dataset.setting === focused)?.focus();
@@ -89,14 +89,14 @@ function leaveComparison() {
 function showComparedBar() {
   document.getElementById("compared")?.remove();
   if (!past.compared) return;
-  live.bar.status.after(element("p", { id: "compared", role: "status" }, `States ${past.compared.join(" and ")} are compared. The newest is drawn all the same.`,
+  live.bar.status.after(element("p", { id: "compared", role: "status" }, `States ${past.compared.join(" and ")} stand in every view. Newer frames are still drawn.`,
     element("button", { type: "button", id: "newest", onclick: leaveComparison }, "Back to the newest")));
 }
 
 /** The pictures and times of the two states that are compared, side by side. */
 function comparedStates([a, b]) {
   const time = (state) => state.milliseconds === null ? "no times" : milliseconds(state.milliseconds) + " of the device, " + milliseconds(state.recording) + " to record";
-  const change = a.milliseconds > 0 && b.milliseconds > 0 ? element("p", {}, `B takes ${(b.milliseconds / a.milliseconds * 100).toFixed(0)} % of the device's time of A.`) : null;
+  const change = a.milliseconds > 0 && b.milliseconds > 0 ? element("p", {}, `B takes ${(b.milliseconds / a.milliseconds * 100).toFixed(0)} % of A's time on the device.`) : null;
   return [change, element("div", { class: "sides" }, [["A", a], ["B", b]].map(([letter, state]) => element("figure", {}, state.pictures.length > 0 ? element("img", { src: state.pictures[0], alt: `picture of ${letter}` }) : null,
     element("figcaption", {}, element("strong", {}, `${letter}: state ${state.version}`), `, ${choiceWords(state)}; ${time(state)}`, element("div", { class: "faint" }, state.took)))))];
 }

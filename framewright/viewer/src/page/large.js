@@ -74,6 +74,12 @@ function openLarge(capture) {
   showLarge(view, capture);
 }
 
+/** Says in an open view that the page shows a newer frame than its picture. */
+function largeIsOld() {
+  const view = large.open?.view;
+  if (view?.picture) view.status.textContent = "The page shows a newer frame than this picture. Again draws it anew.";
+}
+
 /** Shows a capture in a large view that is open: another pass, or another part. */
 function showLarge(view, capture) {
   const isOther = !view.picture || capture.image !== view.capture.image || partKey(capture) !== partKey(view.capture);
@@ -91,6 +97,12 @@ function showLarge(view, capture) {
     if (isOther) fitStage(view);
     else drawStage(view);
   }, (problem) => {
+    if (view.capture !== capture || !view.dialog.isConnected) return;
+    // A picture of another pass would stand below this one's name.
+    clearInterval(view.blinking);
+    Object.assign(view, { picture: null, detail: null, layers: null, other: null, second: false });
+    view.stage.width = 1;
+    view.side.replaceChildren();
     view.status.textContent = visible(problem.message);
     makeTools(view);
   });
@@ -100,7 +112,7 @@ function showLarge(view, capture) {
 function makeTools(view) {
   const { capture, picture } = view;
   const chooser = (label, options, words, chosen) => options.length < 2 ? null : element("label", {}, label + " ",
-    element("select", { onchange: (event) => chosen(options[Number(event.target.value)]) }, options.map((one, at) => element("option", { value: String(at), selected: one === capture || one === view.column }, words(one)))));
+    element("select", { onchange: (event) => chosen(options[Number(event.target.value)]) }, options.map((one, at) => element("option", { value: String(at), selected: one === view.column || (one.image && isSameCapture(one, capture)) }, words(one)))));
   const passes = writesOf(capture);
   const parts = DATA.captures.filter((one) => one.image === capture.image && one.pass === capture.pass);
   const columns = picture && picture.columns > 1 ? ["all", ...Array.from({ length: picture.columns }, (_, at) => String(at))] : [];
@@ -115,6 +127,7 @@ function makeTools(view) {
 /** What stands beside the picture: what it is, its histogram, what it is compared with, and the history of a texel. */
 function makeSide(view) {
   const { picture, capture } = view;
+  stopBlinking(view);
   const samples = models[0]?.byKey.get("image:" + capture.image)?.image?.samples ?? 1;
   view.texels = element("div", { class: "texels" });
   view.side.replaceChildren(
@@ -129,13 +142,16 @@ function makeSide(view) {
 function compareTools(view) {
   const { capture, picture } = view;
   const label = `${capture.image} after ${capture.pass}`;
-  const others = [...writesOf(capture).filter((one) => one !== capture).map((one) => ({ words: "after " + one.pass, of: one })), ...large.kept.map((one) => ({ words: "kept: " + one.words, picture: one.picture }))];
+  const others = [...writesOf(capture).filter((one) => !isSameCapture(one, capture)).map((one) => ({ words: "after " + one.pass, of: one })), ...large.kept.map((one) => ({ words: "kept: " + one.words, picture: one.picture }))];
   const chosen = element("select", { "aria-label": "Compare with" }, element("option", { value: "" }, "nothing"), others.map((one, at) => element("option", { value: String(at) }, one.words)));
   chosen.addEventListener("change", () => {
     const other = others[Number(chosen.value)];
     stopBlinking(view);
     if (chosen.value === "") return;
-    Promise.resolve(other.picture ?? askFor(other.of, { most: 4096 })).then((found) => startBlinking(view, found, other.words), (problem) => { view.status.textContent = visible(problem.message); });
+    Promise.resolve(other.picture ?? askFor(other.of, { most: 4096 })).then((found) => {
+      // Something else may be chosen by now, or the view closed.
+      if (chosen.isConnected && others[Number(chosen.value)] === other) startBlinking(view, found, other.words);
+    }, (problem) => { view.status.textContent = visible(problem.message); });
   });
   const keep = element("button", { type: "button", title: "Keeps this picture to compare later ones with: of other passes, settings or frames", onclick: () => {
     large.kept.unshift({ words: `${label}, ${large.kept.length === 0 ? "first" : "at " + new Date().toLocaleTimeString()}`, picture });
@@ -146,8 +162,9 @@ function compareTools(view) {
   return element("div", { class: "tools compare" }, element("label", {}, "With ", chosen), keep, view.compared);
 }
 
-/** Shows two pictures in turn, once a second. */
+/** Shows two pictures in turn, each once a second. */
 function startBlinking(view, picture, words) {
+  clearInterval(view.blinking);
   view.other = { picture, words };
   view.blinking = setInterval(() => blink(view), 500);
   blink(view);

@@ -174,6 +174,7 @@ function showStatus() {
 /** Shows a state. Views are made anew only for another frame, or other texts. */
 function showState(state, page) {
   live.state = state;
+  const focused = document.activeElement;
   const texts = JSON.stringify(sourcesOf(state, page));
   if (state.frame !== live.frame || texts !== live.texts) {
     live.frame = state.frame;
@@ -182,6 +183,9 @@ function showState(state, page) {
     if (data.plans[0]) data.plans[0].sources = sourcesOf(state, page);
     past.newest = { ...data, live: live.format };
     if (!past.compared) showData(past.newest);
+    // Controls and the history stay, in panels that are made anew.
+    if (focused?.isConnected && document.activeElement !== focused) focused.focus({ preventScroll: true });
+    largeIsOld();
   }
   if (state.times && models[0] && !past.compared) showTimes(state.times);
   showStatus();

@@ -18,7 +18,7 @@ function viewsOf(data) {
     { name: "memory", title: "Memory", make: memoryView },
     { name: "steps", title: "Steps", make: stepsView },
     { name: "cost", title: "Cost", make: costView },
-        { name: "images", title: "Images", make: imagesView },
+    { name: "images", title: "Images", make: imagesView },
     { name: "notes", title: "Decisions", make: notesView },
     data.plans.length > 0 ? { name: "source", title: "Source", make: sourceView } : alone("source", "Source", () => sourceView({ sources: data.texts })),
     data.devices.length > 0 ? { name: "devices", title: "Other devices", make: devicesView } : null,
@@ -114,7 +114,7 @@ function keyPressed(event) {
     event.preventDefault();
     input.focus();
   } else if (event.key === "ArrowRight" || event.key === "ArrowLeft") {
-    if (event.target.closest?.(".scroller, .canvas, select, .controls input")) return;
+    if (event.target.closest?.(".scroller, .canvas, select, input")) return;
     event.preventDefault();
     const by = event.key === "ArrowRight" ? 1 : -1;
     if (event.target.closest?.("#tabs")) {
@@ -124,7 +124,7 @@ function keyPressed(event) {
       next.tab.focus();
       writeHash();
     } else go(by);
-  } else if (/^[1-9]$/.test(event.key) && !event.target.closest?.(".controls") && VIEWS[Number(event.key) - 1]) {
+  } else if (/^[1-9]$/.test(event.key) && !event.target.closest?.(".controls, select, input") && VIEWS[Number(event.key) - 1]) {
     showView(VIEWS[Number(event.key) - 1].name);
     writeHash();
   }

@@ -33,7 +33,7 @@ function drawStage(view) {
 function askForDetail(view) {
   clearTimeout(view.detailing);
   const { picture, stage, scale } = view;
-  if (!DATA.live || isWhole(picture) || scale * picture.region[2] / picture.small[0] < 2 || view.other) return;
+  if (!picture || !DATA.live || isWhole(picture) || scale * picture.region[2] / picture.small[0] < 2 || view.other) return;
   view.detailing = setTimeout(() => {
     const [wide, high] = picture.size;
     const [left, top] = [view.x, view.y].map((at, axis) => Math.max(0, Math.min(picture.size[axis] - 1, Math.floor(at))));

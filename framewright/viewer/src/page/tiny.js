@@ -13,13 +13,13 @@ const captureOf = (image, passes = null) => DATA.captures.findLast((one) => one.
 /** The name that an image has in the frame: a resolved copy shows the image that it is of. */
 const frameName = (name) => name.replace(/ \(resolved\)$/, "");
 
-/** A picture in a drawing, at most so large. What was drawn once is put there again. */
-function tinyPicture(capture, [x, y, width, height]) {
+/** A picture in a drawing, at most so large. What was drawn once is put there again: `place` says where, since an image and its resolved copy have one picture. */
+function tinyPicture(capture, place, [x, y, width, height]) {
   if (tiny.data !== DATA) {
     tiny.data = DATA;
     tiny.made.clear();
   }
-  const key = JSON.stringify(nameOfCapture(capture));
+  const key = JSON.stringify([place, nameOfCapture(capture)]);
   if (!tiny.made.has(key)) {
     const canvas = element("canvas", { class: "tiny", role: "img", "aria-label": capture.image + " after " + capture.pass });
     tiny.made.set(key, canvas);

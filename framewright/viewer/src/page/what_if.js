@@ -96,7 +96,7 @@ function whatIfView() {
   begin().catch((error) => { status.textContent = `Nothing is compiled here: ${error.message ?? error}. Browsers since 2023 do it.`; });
   return element("div", { class: "what-if" },
     element("p", { class: "hint" }, "Change anything: the Plan is made anew, and every view shows it. Shaders aren't compiled here: the page carries what the compiler asks of them, for the choices that were tried when the page was made. Nothing leaves this page."),
-    status, element("div", { class: "halves" }, element("div", {}, parts.controls, parts.editor), parts.result));
+    status, element("div", { class: "beside" }, element("div", {}, parts.controls, parts.editor), parts.result));
 }
 
 async function begin() {
@@ -156,7 +156,7 @@ function showAnswer({ view, wrong }, ms) {
   if (wrong) {
     status.textContent = wrong.mistakes.length > 0 ? "There is no such Plan: " + count(wrong.mistakes.length, "mistake", "mistakes") + ". The views show the last one." : "There is no such Plan.";
     result.replaceChildren(element("pre", { class: "wrong" }, wrong.message), ...wrong.mistakes.filter((mistake) => mistake.file).map((mistake) =>
-      element("button", { type: "button", class: "link place", onclick: () => showLine(mistake) }, `${mistake.file}:${mistake.line}`)));
+      element("button", { type: "button", class: "link place", onclick: () => showLine(mistake) }, `${mistake.file}:${mistake.line}`)).flatMap((place) => [place, " "]));
     return;
   }
   const { page } = whatIf;
