@@ -149,12 +149,9 @@ pub(crate) enum Error {
         text::escape(pass)
     )]
     CustomPass { pass: String, name: String },
-    /// Captured pictures have no place but a page.
-    #[error("`--capture` puts pictures on a page: add `--format html`")]
-    CaptureWithoutPage,
-    /// A compiler in a page has no place but a page.
-    #[error("`--what-if` puts a compiler on a page: add `--format html`")]
-    WhatIfWithoutPage,
+    /// What the option is about has no place but a page.
+    #[error("`{option}` is about a page: add `--format html`")]
+    WithoutPage { option: &'static str },
     /// The compiler for pages is missing.
     #[error(
         "the compiler that a page carries isn't there: neither `{}`\nhelp: in a checkout .ci/what-if.sh makes it; an archive of a release has it beside the command",
@@ -164,9 +161,6 @@ pub(crate) enum Error {
     /// The compiler for pages is something else.
     #[error("the file what-if.wasm is no compiler for pages\nhelp: in a checkout .ci/what-if.sh makes it anew")]
     BadModule,
-    /// Times have no place but a page.
-    #[error("`--report` puts times on a page: add `--format html`")]
-    ReportWithoutPage,
     /// A graph that no picture can hold.
     #[error(
         "a picture of {nodes} passes can't be read: at most {most} are drawn; --format dot or json holds any number"
@@ -443,9 +437,7 @@ impl Error {
             | Error::UnknownProfile { .. }
             | Error::ProfileIsNoDevice { .. }
             | Error::Lab(LabError::Sweep { .. })
-            | Error::CaptureWithoutPage
-            | Error::WhatIfWithoutPage
-            | Error::ReportWithoutPage
+            | Error::WithoutPage { .. }
             | Error::ChoiceForPlan { .. }
             | Error::OwnChoice { .. }
             | Error::OtherSweep { .. }

@@ -36,11 +36,7 @@ impl Error {
             Error::NothingToExplain { .. } | Error::UnknownCode { .. } => Code::NOTHING_TO_EXPLAIN,
             Error::CustomPass { .. } => Code::CUSTOM_UNKNOWN,
             Error::TooManyNodes { .. } | Error::TooManyPairs { .. } => Code::TOO_MANY,
-            Error::CaptureWithoutPage
-            | Error::WhatIfWithoutPage
-            | Error::ReportWithoutPage
-            | Error::ChoiceForPlan { .. }
-            | Error::OwnChoice { .. } => Code::OPTIONS,
+            Error::WithoutPage { .. } | Error::ChoiceForPlan { .. } | Error::OwnChoice { .. } => Code::OPTIONS,
             Error::OtherResults { .. }
             | Error::ReadAndWritten { .. }
             | Error::WrittenTwice { .. }

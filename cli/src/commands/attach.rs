@@ -43,7 +43,10 @@ pub(crate) fn attach(arguments: &AttachArguments) -> Result<Exit, Error> {
         let saved = arguments.save.as_deref().map(|file| file.to_string_lossy().into_owned());
         text::json(&Answer { format_version: 1, url: &viewer.url, version: &about.version, saved, opened })?
     } else {
-        format!("{} shows the program\n", viewer.url)
+        match &arguments.save {
+            Some(file) => format!("{} has the frame of {}\n", text::path(file), viewer.url),
+            None => format!("{} shows the program\n", viewer.url),
+        }
     };
     text::print(&shown).map_err(Error::Print)?;
     Ok(Exit::Fine)

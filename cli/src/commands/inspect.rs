@@ -43,12 +43,6 @@ pub(crate) fn inspect(arguments: &InspectArguments) -> Result<Exit, Error> {
     let mut pipeline = planning::load_with(&arguments.pipeline, &read, helper.clone())?;
     let scene = subject.scene.as_deref().map(|file| inputs::scene(file, subject.reading.strict, &read)).transpose()?;
     spare()?;
-    if arguments.capture.is_some() && arguments.format != PlanFormat::Html {
-        return Err(Error::CaptureWithoutPage);
-    }
-    if arguments.what_if && arguments.format != PlanFormat::Html {
-        return Err(Error::WhatIfWithoutPage);
-    }
     expect_page(arguments)?;
     let module = arguments.what_if.then(what_if::module).transpose()?;
     let drawn_on = if arguments.capture.is_some() { Some(open(&helper)?) } else { None };
@@ -122,11 +116,18 @@ fn inspect_plan(arguments: &InspectArguments, read: &ReadFiles) -> Result<Exit, 
     put(arguments, &shown, read)
 }
 
-/// Times are for pages alone.
+/// Makes sure that options about a page have one.
 fn expect_page(arguments: &InspectArguments) -> Result<(), Error> {
-    match arguments.report.is_some() && arguments.format != PlanFormat::Html {
-        true => Err(Error::ReportWithoutPage),
-        false => Ok(()),
+    let InspectArguments { format, capture, what_if, report, no_sources, .. } = arguments;
+    let given = [
+        (capture.is_some(), "--capture"),
+        (*what_if, "--what-if"),
+        (report.is_some(), "--report"),
+        (*no_sources, "--no-sources"),
+    ];
+    match given.into_iter().find(|(is_given, _)| *is_given && *format != PlanFormat::Html) {
+        Some((_, option)) => Err(Error::WithoutPage { option }),
+        None => Ok(()),
     }
 }
 

@@ -30,7 +30,7 @@ impl Changes {
         });
         let mut changed: Vec<String> = files.into_iter().chain(turned).collect();
         if changed.is_empty() {
-            changed.push("nothing that shows".to_owned());
+            changed.push("no file and no setting".to_owned());
         }
         changed
     }
@@ -52,6 +52,6 @@ mod tests {
         changes.add(vec!["a/first.ron".into()]);
         let told = changes.take(Some(&settings("4")), &settings("1"));
         assert_eq!(told, ["blur.frag", "first.ron", "msaa: 4 → 1"]);
-        assert_eq!(changes.take(Some(&settings("1")), &settings("1")), ["nothing that shows"]);
+        assert_eq!(changes.take(Some(&settings("1")), &settings("1")), ["no file and no setting"]);
     }
 }

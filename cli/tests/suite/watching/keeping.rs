@@ -154,6 +154,7 @@ fn lv_1_a_page_of_the_command_leaves_out_the_texts_of_files() {
     let place = Place::new();
     place.run(&["inspect", "forward", "--format", "html", "-o", "with.html"]).exits(0);
     place.run(&["inspect", "forward", "--format", "html", "--no-sources", "-o", "without.html"]).exits(0);
+    place.run(&["inspect", "forward", "--no-sources"]).exits(2).mentions("`--no-sources` is about a page");
     let has_text = |name: &str| std::fs::read_to_string(place.path(name)).expect("written").contains("passes: [");
     assert_eq!((has_text("with.html"), has_text("without.html")), (true, false));
 }
