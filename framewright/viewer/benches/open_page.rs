@@ -3,7 +3,7 @@
 //! Blocks of frames take turns: with a page that follows the program, without pictures that it asks for, and without a call of the viewer.
 //! The ratio is the median over pairs of neighbours. `-- --short` makes two pairs, to see that it runs.
 
-use framewright::{Device, DeviceOptions, ExecutorOptions, Renderer, RendererOptions, SceneDrawSource, load_scene};
+use framewright::{Device, DeviceOptions, Renderer, RendererOptions, SceneDrawSource, load_scene};
 use framewright_viewer::Viewer;
 use std::error::Error;
 use std::io::{Read, Write};
