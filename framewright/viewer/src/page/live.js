@@ -195,7 +195,7 @@ function showState(state, page) {
   showWrong(state);
   showControls(state);
   const outputs = JSON.stringify(state.outputs);
-  if (outputs !== live.outputs) live.view.outputs.replaceChildren(...state.outputs.map(({ name, picture }) => element("figure", {}, element("img", { src: picture, alt: name }), element("figcaption", {}, name))));
+  if (outputs !== live.outputs) live.view.outputs.replaceChildren(...state.outputs.map(({ name, picture }) => element("figure", {}, element("img", { src: picture, alt: name, loading: "lazy" }), element("figcaption", {}, name))));
   live.outputs = outputs;
   markMistakes(document);
 }

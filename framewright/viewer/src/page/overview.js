@@ -49,7 +49,7 @@ function dearestImages(model) {
 /** The picture of an output: of the server's last frame, or captured. */
 function pictureOf(model) {
   const output = (live.state ?? DATA.saved)?.outputs[0];
-  if (output) return element("img", { src: output.picture, alt: output.name });
+  if (output) return element("img", { src: output.picture, alt: output.name, loading: "lazy" });
   const outputs = new Set(model.plan.images.filter(({ role }) => !role.transient).map((image) => image.name));
   const drawn = DATA.captures.filter((one) => one.data);
   const capture = drawn.findLast((one) => outputs.has(one.image)) ?? drawn.at(-1);

@@ -161,7 +161,7 @@ impl Viewer {
     /// Those of reading what the device left, and of writing the file.
     pub fn save(&mut self, renderer: &mut Renderer, path: impl AsRef<Path>) -> Result<(), SaveError> {
         self.renderers.saw(renderer.id(), Instant::now(), || renderer.name());
-        self.take(renderer)?;
+        self.take(renderer, true)?;
         self.publish()?;
         let page = self.saved(None)?.ok_or(SaveError::NoFrame)?;
         let path = path.as_ref();
@@ -205,20 +205,24 @@ impl Viewer {
         }
         let stays = look.held && before == Some(id) && look.steps == was.steps;
         if !stays {
-            self.take(renderer)?;
+            // Reading outputs costs most: that is done while somebody sees them.
+            let wanted = asked || self.lost_folder.is_some() || self.server.take_fetched();
+            self.take(renderer, wanted)?;
         }
         self.publish_with(ShownMistakes::of_renderer(renderer))
     }
 
-    /// Takes the frame that the renderer drew last.
-    fn take(&mut self, renderer: &mut Renderer) -> Result<(), Error> {
-        if !self.shown.is_of(renderer) {
+    /// Takes the frame that the renderer drew last, with pictures of its outputs if the Plan is another one or they are wanted.
+    fn take(&mut self, renderer: &mut Renderer, wanted: bool) -> Result<(), Error> {
+        let anew = !self.shown.is_of(renderer);
+        if anew {
             let name = self.renderers.name(renderer.id()).map_or_else(|| renderer.name(), str::to_owned);
             let Some(shown) = ShownFrame::begin(renderer, name, self.version + 1)? else { return Ok(()) };
             self.shown = shown;
             self.shown.take_times(renderer)?;
         }
-        self.shown.take_pictures(renderer, self.version + 1)
+        self.shown.take_findings(renderer);
+        if anew || wanted { self.shown.take_pictures(renderer, self.version + 1) } else { Ok(()) }
     }
 
     /// Gives the renderer what was chosen. Whether there was anything.

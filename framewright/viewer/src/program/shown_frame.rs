@@ -81,7 +81,6 @@ impl ShownFrame {
 
     /// Reads the outputs of the last frame; `version` is the number of the state that has their pictures.
     pub(super) fn take_pictures(&mut self, renderer: &mut Renderer, version: u64) -> Result<(), Error> {
-        self.take_findings(renderer);
         let Some(executor) = renderer.current_executor_mut() else { return Ok(()) };
         let images = |(at, output): (usize, &framewright_graph::plan::Output)| match output.resource {
             Resource::Image(_) => Some((at, output.name.to_string())),
@@ -107,7 +106,7 @@ impl ShownFrame {
     }
 
     /// Takes what the validation layer has said.
-    fn take_findings(&mut self, renderer: &Renderer) {
+    pub(super) fn take_findings(&mut self, renderer: &Renderer) {
         let said = renderer.device().messages().distinct();
         let found = said.into_iter().filter(|(message, _)| message.is_finding());
         let shown =

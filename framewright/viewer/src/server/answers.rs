@@ -61,6 +61,8 @@ struct ServerState {
     /// When somebody asked last.
     asked: Arc<Mutex<Option<Instant>>>,
     watched: Arc<AtomicBool>,
+    /// Whether pictures of outputs were fetched since the server was asked for that.
+    fetched: Arc<AtomicBool>,
     page: Bytes,
     shown: Receiver<PublishedState>,
     choices: mpsc::SyncSender<Choice>,
@@ -78,6 +80,7 @@ pub struct Server {
     questions: mpsc::Receiver<Question>,
     look: Arc<Mutex<Look>>,
     watched: Arc<AtomicBool>,
+    fetched: Arc<AtomicBool>,
 }
 
 impl Server {
@@ -97,11 +100,13 @@ impl Server {
         let look = Arc::<Mutex<Look>>::default();
         let page = page::live_page(About::FORMAT_VERSION)?.into();
         let (token, watched) = (token.map(Arc::from), Arc::new(AtomicBool::new(false)));
+        let fetched = Arc::<AtomicBool>::default();
         let shared = ServerState {
             address,
             token: token.clone(),
             asked: Arc::default(),
             watched: Arc::clone(&watched),
+            fetched: Arc::clone(&fetched),
             page,
             shown,
             choices: send,
@@ -121,7 +126,7 @@ impl Server {
                 while shown.changed().await.is_ok() {}
             });
         })?;
-        Ok(Server { address, token, publish, choices, questions, look, watched })
+        Ok(Server { address, token, publish, choices, questions, look, watched, fetched })
     }
 
     /// Where the page is, as a browser takes it.
@@ -158,6 +163,11 @@ impl Server {
     #[must_use]
     pub fn questions(&self) -> &mpsc::Receiver<Question> {
         &self.questions
+    }
+
+    /// Whether somebody fetched a picture of an output since the last call.
+    pub(crate) fn take_fetched(&self) -> bool {
+        self.fetched.swap(false, Ordering::Relaxed)
     }
 
     /// What people look at.
@@ -277,6 +287,7 @@ async fn state(State(mut shared): State<ServerState>, server: Option<String>, af
 
 async fn picture(State(shared): State<ServerState>, Path(name): Path<String>) -> Response {
     let picture = shared.shown.borrow().pictures.get(&name).cloned();
+    shared.fetched.store(true, Ordering::Relaxed);
     match picture {
         Some(png) => ([(CONTENT_TYPE, "image/png")], Bytes::from_owner(png)).into_response(),
         None => StatusCode::NOT_FOUND.into_response(),
